@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularAlgorithm.h"
 
-#include "private/dump/particles.h"
 #include "private/request/piece_request.h"
 #include "private/request/processes.h"
+#include "private/request/request_task.h"
 
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -19,6 +20,25 @@ vtkGranularAlgorithm::vtkGranularAlgorithm()
 
 //------------------------------------------------------------------------------
 vtkGranularAlgorithm::~vtkGranularAlgorithm() = default;
+
+//------------------------------------------------------------------------------
+void vtkGranularAlgorithm::SetPorts(
+  std::initializer_list<Input> inputs, std::initializer_list<const char*> outputs)
+{
+  this->SetNumberOfInputPorts(static_cast<int>(inputs.size()));
+  this->SetNumberOfOutputPorts(static_cast<int>(outputs.size()));
+  int port = 0;
+  for (const Input input : inputs)
+  {
+    vtkInformation* info = this->GetInputPortInformation(port++);
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), input == Input::Optional ? 1 : 0);
+  }
+  port = 0;
+  for (const char* type : outputs)
+  {
+    this->GetOutputPortInformation(port++)->Set(vtkDataObject::DATA_TYPE_NAME(), type);
+  }
+}
 
 //------------------------------------------------------------------------------
 void vtkGranularAlgorithm::SetThreads(int threads)
@@ -87,8 +107,8 @@ int vtkGranularAlgorithm::RequestUpdateExtent(
   if (this->GetNumberOfInputPorts() > 0)
   {
     const PieceRequest wanted = PieceRequest::Of(request, outputVector);
-    const bool own = IsOwn(wanted, this->Ranks->Get());
-    this->AskFor(inputVector, own ? wanted.Piece : 0, own ? wanted.Pieces : 1);
+    const PieceRequest piece = PieceOfInput(wanted, this->Ranks->Get());
+    this->AskFor(inputVector, piece.Piece, piece.Pieces);
   }
   return 1;
 }

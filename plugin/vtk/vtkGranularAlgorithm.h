@@ -13,13 +13,15 @@
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
-#include <memory> // for std::unique_ptr
+#include <initializer_list> // for SetPorts
+#include <memory>           // for std::unique_ptr
 
 class vtkMultiProcessController;
 
 namespace vtkGranularPrivate
 {
 class Processes;
+class RequestTask;
 }
 
 class VTKGRANULAR_EXPORT vtkGranularAlgorithm : public vtkDataObjectAlgorithm
@@ -61,6 +63,18 @@ protected:
   vtkGranularAlgorithm();
   ~vtkGranularAlgorithm() override;
 
+  enum class Input
+  {
+    Required,
+    Optional
+  };
+
+  /**
+   * Sets the ports, by the types of the outputs. Inputs are data objects of any type: all ranks look at them together, and
+   * fail together. A composite is not handed over block by block, with which ranks would wait for each other.
+   */
+  void SetPorts(std::initializer_list<Input> inputs, std::initializer_list<const char*> outputs);
+
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
 
@@ -96,6 +110,8 @@ protected:
 private:
   vtkGranularAlgorithm(const vtkGranularAlgorithm&) = delete;
   void operator=(const vtkGranularAlgorithm&) = delete;
+
+  friend class vtkGranularPrivate::RequestTask;
 };
 
 #endif

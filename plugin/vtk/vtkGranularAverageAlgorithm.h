@@ -18,6 +18,8 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+#include <string> // for std::string
+
 class vtkAlgorithmOutput;
 class vtkDataArraySelection;
 
@@ -40,15 +42,15 @@ public:
   /**
    * Sets the contacts between particles, and those with walls: input ports 1 and 2, both optional.
    */
-  void SetLinesConnection(vtkAlgorithmOutput* output);
-  void SetWallsConnection(vtkAlgorithmOutput* output);
+  void SetLinesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  void SetWallsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
   ///@}
 
   /**
    * Returns the selection of the arrays that are made. Those that are off cost nothing. v_avg, volumefraction, radius, pressure,
    * sigma and tau are on by default.
    */
-  virtual vtkDataArraySelection* GetArraySelection();
+  virtual vtkDataArraySelection* GetArraySelection() { return this->ArraySelection; }
 
   ///@{
   /**
@@ -65,24 +67,25 @@ public:
    * warning); masses ("mass"; without it they are made from the array `density` and the radii, or are 1, with a warning);
    * radii ("radius").
    */
-  vtkSetStringMacro(VelocityArray);
-  vtkGetStringMacro(VelocityArray);
-  vtkSetStringMacro(MassArray);
-  vtkGetStringMacro(MassArray);
-  vtkSetStringMacro(RadiusArray);
-  vtkGetStringMacro(RadiusArray);
+  vtkSetStdStringFromCharMacro(VelocityArray);
+  vtkGetCharFromStdStringMacro(VelocityArray);
+  vtkSetStdStringFromCharMacro(MassArray);
+  vtkGetCharFromStdStringMacro(MassArray);
+  vtkSetStdStringFromCharMacro(RadiusArray);
+  vtkGetCharFromStdStringMacro(RadiusArray);
   ///@}
 
 protected:
   vtkGranularAverageAlgorithm();
   ~vtkGranularAverageAlgorithm() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
 
   double KernelWidth = 0;
-  char* VelocityArray = nullptr;
-  char* MassArray = nullptr;
-  char* RadiusArray = nullptr;
+  std::string VelocityArray = "v";
+  std::string MassArray = "mass";
+  std::string RadiusArray = "radius";
   vtkDataArraySelection* const ArraySelection;
+
+  class AverageTask; ///< from which the tasks of the filters derive
 
 private:
   vtkGranularAverageAlgorithm(const vtkGranularAverageAlgorithm&) = delete;

@@ -10,10 +10,7 @@
 #include "private/paths/kept_frames.h"
 #include "private/paths/read_numbers.h"
 #include "private/request/expect_data.h"
-#include "private/request/guard.h"
-#include "private/request/piece_request.h"
-#include "private/request/processes.h"
-#include "private/request/text_of.h"
+#include "private/request/request_task.h"
 
 #include "granular/common/words.h"
 #include "granular/numbers/number_print.h"
@@ -145,40 +142,23 @@ ArrayForm FormOf(vtkAbstractArray* array)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Does one request. Collective.
- */
-class vtkGranularCompare::Comparer
+class vtkGranularCompare::Task : public FilterTask<vtkGranularCompare>
 {
 public:
-  Comparer(vtkGranularCompare* self, vtkInformation* request, vtkInformationVector* outputs)
-    : Self(self)
-    , Outputs{ vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1) }
-    , Wanted(PieceRequest::Of(request, outputs))
-    , Ranks(self->Ranks->Get())
-    , Own(self)
-    , Shared(this->Own, this->Ranks)
-    , Progress(this->Shared)
-  {
-  }
+  using FilterTask::FilterTask;
 
-  void Run()
+private:
+  void Execute() override
   {
-    this->Progress.step(0);
-    this->Together = AreTogether(this->Wanted, false, this->Ranks);
     this->ReadFrames();
-    granular::SerialCommunicator alone;
-    this->Compare(this->Together ? this->Ranks : alone);
+    this->Compare();
     for (vtkPolyData* output : this->Outputs)
     {
       output->GetFieldData()->PassData(this->Current[0]->GetFieldData());
     }
-    this->Progress.set_part(1, 1);
-    this->Progress.step(1);
-    this->Tell();
+    this->TellOfFrames();
   }
 
-private:
   /**
    * What is counted, over all processes.
    */
@@ -193,9 +173,7 @@ private:
   void ReadFrames()
   {
     KeptFrames& frames = *this->Self->Frames;
-    const bool own = IsOwn(this->Wanted, this->Ranks);
-    frames.Begin(
-      this->Self, { own ? this->Wanted.Piece : 0, own ? this->Wanted.Pieces : 1, 0 }, this->Ranks);
+    frames.Begin(this->Self, { this->Group.rank(), this->Group.size(), 0 }, this->Ranks);
     this->Current = frames.GetShown();
     const std::size_t reference = this->FindReference(frames);
     this->Reference = frames.Get(this->Self, reference, this->Ranks);
@@ -238,28 +216,28 @@ private:
     return first;
   }
 
-  void Compare(granular::Communicator& ranks)
+  void Compare()
   {
     const bool hasLines = this->Current.size() > 1;
-    if (this->IsOfLines(ranks))
+    if (this->IsOfLines())
     {
       if (hasLines)
       {
         throw granular::Error(
           "expected particles with the point array 'id' as Input of Lines, got lines");
       }
-      this->CompareLines(0, ranks);
+      this->CompareLines(0);
       return;
     }
-    this->CompareParticles(ranks);
+    this->CompareParticles();
     if (hasLines)
     {
-      this->CompareLines(1, ranks);
-      this->FindFragments(ranks);
+      this->CompareLines(1);
+      this->FindFragments();
     }
-    this->FillParticles(ranks);
+    this->FillParticles();
     std::array<std::int64_t, 2> sums = { this->All.Kept, this->All.Lines };
-    ranks.sum(sums);
+    this->Group.sum(sums);
     this->All.Kept = sums[0];
     this->All.Lines = sums[1];
   }
@@ -267,7 +245,7 @@ private:
   /**
    * Returns true if some rank has lines at the first input, in either frame, and none has particles.
    */
-  bool IsOfLines(granular::Communicator& ranks) const
+  bool IsOfLines() const
   {
     std::array<std::int64_t, 2> counts = {};
     for (vtkDataObject* data : { this->Current[0].Get(), this->Reference[0].Get() })
@@ -279,7 +257,7 @@ private:
         counts[1] += HasArray(cells, "id1") && HasArray(cells, "id2") ? 1 : 0;
       }
     }
-    ranks.sum(counts);
+    this->Group.sum(counts);
     return counts[0] == 0 && counts[1] > 0;
   }
 
@@ -288,26 +266,23 @@ private:
    */
   Rows PartOf(const Rows& rows) const
   {
-    if (this->Together)
-    {
-      return rows;
-    }
-    const auto [first, last] = this->Wanted.RangeOf(static_cast<vtkTypeInt64>(rows.size()));
+    const auto [first, last] = this->RangeOf(static_cast<vtkTypeInt64>(rows.size()));
     return Rows(rows.begin() + first, rows.begin() + last);
   }
 
-  void CompareParticles(granular::Communicator& ranks)
+  void CompareParticles()
   {
     this->Particles[0].emplace(this->Current[0], this->Ranks);
     this->Particles[1].emplace(this->Reference[0], this->Ranks);
     const granular::FrameView& view = this->Particles[0]->View();
     const granular::FrameView& reference = this->Particles[1]->View();
     granular::ParticleCompareRequest request;
-    request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
-    request.differences = NamesIn(TextOf(this->Self->Differences),
-      NamesOfBoth(ShareArrays(view, ranks), ShareArrays(reference, ranks)));
+    request.threads = this->Threads;
+    request.differences = NamesIn(this->Self->Differences,
+      NamesOfBoth(ShareArrays(view, this->Group), ShareArrays(reference, this->Group)));
     this->Progress.set_part(0.1, 0.6);
-    this->Compared = granular::compare_particles(view, reference, request, ranks, this->Progress);
+    this->Compared =
+      granular::compare_particles(view, reference, request, this->Group, this->Progress);
     this->All.Far = this->Compared.far;
     for (vtkIdType row = 0; row < view.rows; ++row)
     {
@@ -320,13 +295,13 @@ private:
     }
   }
 
-  void CompareLines(std::size_t port, granular::Communicator& ranks)
+  void CompareLines(std::size_t port)
   {
     this->Progress.set_part(0.6, 0.7);
     std::array<vtkPointSet*, 2> inputs;
     std::array<std::optional<LocalRows>, 2> rows;
     std::array<std::vector<std::int64_t>, 2> kinds;
-    const std::string type = TextOf(this->Self->BondTypeArray);
+    const std::string& type = this->Self->BondTypeArray;
     for (std::size_t i = 0; i < 2; ++i)
     {
       const FrameData& frame = i == 0 ? this->Current : this->Reference;
@@ -344,7 +319,7 @@ private:
     this->All.Lines = rows[0]->Count();
     const granular::LineChanges changes =
       granular::compare_lines({ this->Ends[0][0], this->Ends[0][1], kinds[0] },
-        { this->Ends[1][0], this->Ends[1][1], kinds[1] }, ranks);
+        { this->Ends[1][0], this->Ends[1][1], kinds[1] }, this->Group);
     Rows all(static_cast<std::size_t>(rows[0]->Count()));
     std::iota(all.begin(), all.end(), vtkIdType{ 0 });
     Rows lost;
@@ -356,7 +331,8 @@ private:
       }
     }
     FillLines({ inputs[0], &*rows[0], this->PartOf(all) },
-      { inputs[1], &*rows[1], this->PartOf(lost) }, changes.current, ranks, this->Outputs[port]);
+      { inputs[1], &*rows[1], this->PartOf(lost) }, changes.current, this->Group,
+      this->Outputs[port]);
     this->AddAges(this->Outputs[port]->GetCellData());
   }
 
@@ -378,7 +354,7 @@ private:
     data->AddArray(ages);
   }
 
-  void FindFragments(granular::Communicator& ranks)
+  void FindFragments()
   {
     const granular::FrameView& view = this->Particles[0]->View();
     this->Progress.set_part(0.7, 0.8);
@@ -387,12 +363,12 @@ private:
     {
       ids = ReadIds(*array, view.rows, this->ParticleRows, this->Progress);
     }
-    const auto masses = ReadMasses(view, TextOf(this->Self->MassArray), this->ParticleRows, ranks);
+    const auto masses = ReadMasses(view, this->Self->MassArray, this->ParticleRows, this->Group);
     this->Progress.set_part(0.8, 0.9);
     this->Progress.step(0);
     const granular::Fragments found = granular::find_fragments(ids,
       masses ? std::optional(std::span<const double>(*masses)) : std::nullopt, this->Ends[0][0],
-      this->Ends[0][1], ranks);
+      this->Ends[0][1], this->Group);
     this->All.Unconnected = found.missing;
     const Rows& rows = this->ParticleRows;
     this->Made.push_back(Spread<vtkTypeInt64Array>("fragment", found.labels, rows, view.rows));
@@ -403,7 +379,7 @@ private:
     }
   }
 
-  void FillParticles(granular::Communicator& ranks)
+  void FillParticles()
   {
     auto* current = vtkPointSet::SafeDownCast(this->Current[0]);
     auto* reference = vtkPointSet::SafeDownCast(this->Reference[0]);
@@ -414,7 +390,7 @@ private:
     vtkPolyData* output = this->Outputs[0];
     vtkPointData* data = output->GetPointData();
     both.Pass(ShareForms(current->GetPointData(), view.rows, reference->GetPointData(),
-                reference->GetNumberOfPoints(), ranks),
+                reference->GetNumberOfPoints(), this->Group),
       current->GetPointData(), reference->GetPointData(), data);
     data->AddArray(MakeChanges(this->Compared.changes, rows, lost.size()));
     std::vector<vtkSmartPointer<vtkAbstractArray>> made = { TakeDoubles(
@@ -445,44 +421,29 @@ private:
     this->Outputs[0]->SetVerts(MakeCells(both.Count(), 1));
   }
 
-  void Tell() const
+  void TellOfFrames()
   {
-    std::vector<Processes::Remark> remarks;
-    const auto tell = [&](bool is, const char* topic, const std::string& text)
-    {
-      if (is && (this->Ranks.rank() == 0 || !this->Together))
-      {
-        remarks.push_back({ topic, text });
-      }
-    };
-    tell(this->All.Far > 0, "far",
+    this->Tell(this->All.Far > 0, "far",
       std::to_string(this->All.Far) +
         " particles moved more than a quarter of a period of the box: their displacement may be "
         "wrong by periods. Unwrapped points, or ix iy iz in the dump, make it exact");
     const bool boxless = this->Particles[0] && !this->Compared.unwrapped &&
       !this->Particles[0]->View().has_box && !this->Particles[1]->View().has_box;
-    tell(boxless && this->All.Kept > 0, "no box",
+    this->Tell(boxless && this->All.Kept > 0, "no box",
       "neither frame has a box in its field data (BoxOrigin, BoxVectors): displacements across "
       "periodic faces are those of the points");
-    tell(this->All.Unconnected > 0, "unconnected",
+    this->Tell(this->All.Unconnected > 0, "unconnected",
       std::to_string(this->All.Unconnected) + " of " + std::to_string(this->All.Lines) +
         " lines name a particle that is not there: they connect no fragments");
-    tell(!this->LateFirst.empty() && this->All.Kept > 0, "first frame",
+    this->Tell(!this->LateFirst.empty() && this->All.Kept > 0, "first frame",
       "the first frame has no particles: the reference is the frame of time " + this->LateFirst);
-    tell(this->LackPlaces, "no places",
+    this->Tell(this->LackPlaces, "no places",
       "the input Lines has no lines, as its file does not say where these are: draw the rows, the "
       "second output of the reader, with GranularLocalJoin");
-    this->Self->Ranks->Warn(this->Self, remarks);
   }
 
-  vtkGranularCompare* Self;
-  std::array<vtkPolyData*, 2> Outputs;
-  PieceRequest Wanted;
-  granular::Communicator& Ranks;
-  AlgorithmProgress Own;
-  granular::SharedProgress Shared;
-  granular::PartialProgress Progress;
-  bool Together = false;
+  const std::array<vtkPolyData*, 2> Outputs = { this->GetOutput<vtkPolyData>(0),
+    this->GetOutput<vtkPolyData>(1) };
   FrameData Current;
   FrameData Reference;
   double Passed = 0;                                                     ///< time between both
@@ -500,18 +461,11 @@ private:
 vtkGranularCompare::vtkGranularCompare()
   : Frames(std::make_unique<KeptFrames>())
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
-  this->SetMassArray("mass");
+  this->SetPorts({ Input::Required, Input::Optional }, { "vtkPolyData", "vtkPolyData" });
 }
 
 //------------------------------------------------------------------------------
-vtkGranularCompare::~vtkGranularCompare()
-{
-  this->SetDifferences(nullptr);
-  this->SetBondTypeArray(nullptr);
-  this->SetMassArray(nullptr);
-}
+vtkGranularCompare::~vtkGranularCompare() = default;
 
 //------------------------------------------------------------------------------
 vtkPolyData* vtkGranularCompare::GetOutput()
@@ -526,32 +480,10 @@ vtkPolyData* vtkGranularCompare::GetLinesOutput()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularCompare::SetLinesConnection(vtkAlgorithmOutput* output)
+void vtkGranularCompare::Execute(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->SetInputConnection(1, output);
-}
-
-//------------------------------------------------------------------------------
-// All data come in, and are looked at by all processes together: see Particles and LocalRows.
-int vtkGranularCompare::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularCompare::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularCompare::Execute(vtkInformation* request,
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  Comparer(this, request, outputVector).Run();
+  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -560,7 +492,7 @@ void vtkGranularCompare::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Reference: " << this->Reference << "\n";
   os << indent << "ReferenceTime: " << this->ReferenceTime << "\n";
-  os << indent << "Differences: " << TextOf(this->Differences) << "\n";
-  os << indent << "BondTypeArray: " << TextOf(this->BondTypeArray) << "\n";
-  os << indent << "MassArray: " << TextOf(this->MassArray) << "\n";
+  os << indent << "Differences: " << this->Differences << "\n";
+  os << indent << "BondTypeArray: " << this->BondTypeArray << "\n";
+  os << indent << "MassArray: " << this->MassArray << "\n";
 }

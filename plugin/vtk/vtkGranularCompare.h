@@ -46,6 +46,7 @@
 #include "vtkGranularModule.h" // For export macro
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
 class vtkAlgorithmOutput;
 class vtkPolyData;
@@ -82,7 +83,7 @@ public:
   /**
    * Sets the lines: input port 1, optional.
    */
-  void SetLinesConnection(vtkAlgorithmOutput* output);
+  void SetLinesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
   ///@{
   /**
@@ -107,8 +108,8 @@ public:
    * Sets the point arrays of the particles for which A_difference is made: names separated by blanks or commas; "*" stands
    * for all numeric arrays but id that both frames have with the same number of components. None by default.
    */
-  vtkSetStringMacro(Differences);
-  vtkGetStringMacro(Differences);
+  vtkSetStdStringFromCharMacro(Differences);
+  vtkGetCharFromStdStringMacro(Differences);
   ///@}
 
   ///@{
@@ -116,8 +117,8 @@ public:
    * Sets the cell array of integers, such as the type of a bond, in which lines must agree to be the same. None by default:
    * only the particles count.
    */
-  vtkSetStringMacro(BondTypeArray);
-  vtkGetStringMacro(BondTypeArray);
+  vtkSetStdStringFromCharMacro(BondTypeArray);
+  vtkGetCharFromStdStringMacro(BondTypeArray);
   ///@}
 
   ///@{
@@ -125,15 +126,13 @@ public:
    * Sets the point array of the masses of particles ("mass" by default) [kg]. Without it masses are those of spheres by the
    * arrays density [kg/m3] and radius [m]; without these there is no fragment_mass.
    */
-  vtkSetStringMacro(MassArray);
-  vtkGetStringMacro(MassArray);
+  vtkSetStdStringFromCharMacro(MassArray);
+  vtkGetCharFromStdStringMacro(MassArray);
   ///@}
 
 protected:
   vtkGranularCompare();
   ~vtkGranularCompare() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -141,13 +140,13 @@ private:
   vtkGranularCompare(const vtkGranularCompare&) = delete;
   void operator=(const vtkGranularCompare&) = delete;
 
-  class Comparer;
+  class Task;
 
   int Reference = FIRST;
   double ReferenceTime = 0;
-  char* Differences = nullptr;
-  char* BondTypeArray = nullptr;
-  char* MassArray = nullptr;
+  std::string Differences;
+  std::string BondTypeArray;
+  std::string MassArray = "mass";
   const std::unique_ptr<vtkGranularPrivate::KeptFrames> Frames;
 };
 

@@ -6,9 +6,7 @@
 #include "private/contacts/contact_input.h"
 #include "private/dump/particles.h"
 #include "private/local/chosen_lines.h"
-#include "private/request/piece_request.h"
-#include "private/request/processes.h"
-#include "private/request/text_of.h"
+#include "private/request/request_task.h"
 
 #include "granular/contacts/contact_sums.h"
 #include "granular/numbers/number_print.h"
@@ -84,46 +82,22 @@ void ExpectNumber(const char* name, double value, bool zero)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Does one request. Collective.
- */
-class vtkGranularContactSums::Summer
+class vtkGranularContactSums::Task : public FilterTask<vtkGranularContactSums>
 {
 public:
-  Summer(vtkGranularContactSums* self, vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs)
-    : Self(self)
-    , Particles(vtkDataObject::GetData(inputs[0]))
-    , Outputs{ vtkPolyData::GetData(outputs, 0), vtkPolyData::GetData(outputs, 1) }
-    , Wanted(PieceRequest::Of(request, outputs))
-    , Ranks(self->Ranks->Get())
-    , Own(self)
-    , Shared(this->Own, this->Ranks)
-    , Progress(this->Shared)
-  {
-    for (std::size_t port = 0; port < 2; ++port)
-    {
-      vtkInformation* info = inputs[port + 1]->GetInformationObject(0);
-      this->Contacts[port] = info ? vtkDataObject::GetData(info) : nullptr;
-    }
-  }
-
-  void Run()
-  {
-    this->Progress.step(0);
-    this->Input.emplace(this->Particles, this->Ranks);
-    this->Together = AreTogether(this->Wanted, false, this->Ranks);
-    this->Read();
-    granular::SerialCommunicator alone;
-    this->Sum(this->Together ? this->Ranks : alone);
-    this->FillParticles();
-    this->FillLines();
-    this->Tell();
-    this->Progress.set_part(1, 1);
-    this->Progress.step(1);
-  }
+  using FilterTask::FilterTask;
 
 private:
+  void Execute() override
+  {
+    this->Input.emplace(this->Particles, this->Ranks);
+    this->Read();
+    this->Sum();
+    this->FillParticles();
+    this->FillLines();
+    this->TellOfContacts();
+  }
+
   bool IsOn(const char* name) const
   {
     return this->Self->ArraySelection->ArrayIsEnabled(name) != 0;
@@ -164,7 +138,7 @@ private:
     }
   }
 
-  void Sum(granular::Communicator& ranks)
+  void Sum()
   {
     granular::ContactSumsRequest request;
     request.force = this->IsOn("contact_force");
@@ -180,11 +154,11 @@ private:
                                                               : granular::LeverArm::ContactPoint;
     request.options.least_force = this->Self->MinimumForce;
     request.options.least_overlap = this->Self->MinimumOverlap;
-    request.radius = TextOf(this->Self->RadiusArray);
-    request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
+    request.radius = this->Self->RadiusArray;
+    request.threads = this->Threads;
     this->Progress.set_part(0.1, 0.95);
-    this->Sums =
-      granular::sum_contacts(this->Input->View(), this->Inputs, request, ranks, this->Progress);
+    this->Sums = granular::sum_contacts(
+      this->Input->View(), this->Inputs, request, this->Group, this->Progress);
     for (std::size_t port = 0; port < 2; ++port)
     {
       if (this->Rows[port])
@@ -194,7 +168,7 @@ private:
         this->Remark = this->Remark.empty() ? remark : this->Remark;
       }
     }
-    ranks.sum(this->All);
+    this->Group.sum(this->All);
   }
 
   /**
@@ -246,7 +220,7 @@ private:
     all->SetPoints(input->GetPoints());
     all->GetPointData()->PassData(input->GetPointData());
     this->AddArrays(all->GetPointData());
-    vtkPolyData* output = this->Outputs[0];
+    auto* output = this->GetOutput<vtkPolyData>();
     auto* cells = vtkPolyData::SafeDownCast(input);
     if (this->Together && cells)
     {
@@ -262,7 +236,7 @@ private:
     }
     else
     {
-      this->FillPiece(all);
+      this->FillPiece(all, output);
     }
     vtkFieldData* fields = output->GetFieldData();
     fields->PassData(input->GetFieldData());
@@ -282,13 +256,12 @@ private:
   /**
    * Of the whole, which each rank has made.
    */
-  void FillPiece(vtkPolyData* all)
+  void FillPiece(vtkPolyData* all, vtkPolyData* output)
   {
-    const auto [first, last] = this->Wanted.RangeOf(all->GetNumberOfPoints());
+    const auto [first, last] = this->RangeOf(all->GetNumberOfPoints());
     vtkNew<vtkIdList> tuples;
     tuples->SetNumberOfIds(last - first);
     std::iota(tuples->begin(), tuples->end(), first);
-    vtkPolyData* output = this->Outputs[0];
     if (vtkPoints* const given = all->GetPoints())
     {
       vtkNew<vtkPoints> points;
@@ -308,15 +281,14 @@ private:
    */
   void FillLines()
   {
-    vtkPolyData* output = this->Outputs[1];
+    auto* output = this->GetOutput<vtkPolyData>(1);
     auto* input = vtkPointSet::SafeDownCast(this->Contacts[0]);
     if (this->Sums.friction.empty() || !this->Rows[0] || !input)
     {
       return;
     }
     const LocalRows& rows = this->Rows[0]->GetLines();
-    const auto [first, last] = this->Together ? std::pair(vtkTypeInt64{ 0 }, rows.Count())
-                                              : this->Wanted.RangeOf(rows.Count());
+    const auto [first, last] = this->RangeOf(rows.Count());
     std::vector<vtkIdType> wanted(static_cast<std::size_t>(last - first));
     std::iota(wanted.begin(), wanted.end(), first);
     const ChosenCells cells = FindCells({ input, &rows, wanted });
@@ -338,53 +310,37 @@ private:
     output->GetFieldData()->PassData(input->GetFieldData());
   }
 
-  void Tell()
+  void TellOfContacts()
   {
-    std::vector<Processes::Remark> remarks;
-    const auto tell = [&](bool is, const char* topic, const std::string& text)
-    {
-      if (is && (this->Ranks.rank() == 0 || !this->Together))
-      {
-        remarks.push_back({ topic, text });
-      }
-    };
     const std::string ofAll = " of " + std::to_string(this->All[0] + this->All[1]) + " contacts ";
     const bool lack = (this->Rows[0] && this->Rows[0]->GetLines().LackPlaces()) ||
       (this->Rows[1] && this->Rows[1]->GetLines().LackPlaces());
-    tell(lack && this->All[0] + this->All[1] == 0, "no places",
+    this->Tell(lack && this->All[0] + this->All[1] == 0, "no places",
       "an input has no lines, as its file does not say where these are: take the rows, the second "
       "output of the reader");
-    tell(this->Sums.missing > 0, "missing",
+    this->Tell(this->Sums.missing > 0, "missing",
       std::to_string(this->Sums.missing) + ofAll +
         "name a particle that is not there: they count for the other one alone" +
         (this->Sums.unplaced > 0 ? "; " + std::to_string(this->Sums.unplaced) +
               " of these have no line, and count for coordination and force alone"
                                  : ""));
-    tell(this->Sums.broken > 0, "broken",
+    this->Tell(this->Sums.broken > 0, "broken",
       std::to_string(this->Sums.broken) + ofAll +
         "are left out: a number of theirs is no number, infinite or too large");
-    tell(this->Sums.repeated > 0, "repeated",
+    this->Tell(this->Sums.repeated > 0, "repeated",
       std::to_string(this->Sums.repeated) +
         " particles have the id of another one: contacts go to the first");
-    tell(!this->Remark.empty(), "timesteps", this->Remark);
+    this->Tell(!this->Remark.empty(), "timesteps", this->Remark);
     const std::string unknown = TellOfUnknown(this->Self->ArraySelection, Arrays);
-    tell(!unknown.empty(), "unknown arrays", unknown);
-    tell(this->LackForces, "no forces",
+    this->Tell(!unknown.empty(), "unknown arrays", unknown);
+    this->Tell(this->LackForces, "no forces",
       "the contacts have neither an array 'force' nor 'force_normal': what needs forces is not "
       "made");
-    this->Self->Ranks->Warn(this->Self, remarks);
   }
 
-  vtkGranularContactSums* Self;
-  vtkDataObject* Particles;
-  std::array<vtkDataObject*, 2> Contacts = {}; ///< between particles, with walls
-  std::array<vtkPolyData*, 2> Outputs;
-  PieceRequest Wanted;
-  granular::Communicator& Ranks;
-  AlgorithmProgress Own;
-  granular::SharedProgress Shared;
-  granular::PartialProgress Progress;
-  bool Together = false;
+  vtkDataObject* const Particles = this->GetInput(0);
+  /// between particles, with walls
+  const std::array<vtkDataObject*, 2> Contacts = { this->GetInput(1), this->GetInput(2) };
   std::optional<vtkGranularPrivate::Particles> Input;
   std::array<std::optional<ContactInput>, 2> Rows;
   std::vector<granular::ContactRows> Inputs;
@@ -398,15 +354,13 @@ private:
 vtkGranularContactSums::vtkGranularContactSums()
   : ArraySelection(MakeSelection(this, Arrays))
 {
-  this->SetNumberOfInputPorts(3);
-  this->SetNumberOfOutputPorts(2);
-  this->SetRadiusArray("radius");
+  this->SetPorts(
+    { Input::Required, Input::Optional, Input::Optional }, { "vtkPolyData", "vtkPolyData" });
 }
 
 //------------------------------------------------------------------------------
 vtkGranularContactSums::~vtkGranularContactSums()
 {
-  this->SetRadiusArray(nullptr);
   this->ArraySelection->Delete();
 }
 
@@ -423,44 +377,10 @@ vtkPolyData* vtkGranularContactSums::GetLinesOutput()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularContactSums::SetLinesConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(1, output);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularContactSums::SetWallsConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(2, output);
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularContactSums::GetArraySelection()
-{
-  return this->ArraySelection;
-}
-
-//------------------------------------------------------------------------------
-// All data come in, and are looked at by all processes together: see Particles and LocalRows.
-int vtkGranularContactSums::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularContactSums::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularContactSums::Execute(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  Summer(this, request, inputVector, outputVector).Run();
+  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -472,7 +392,7 @@ void vtkGranularContactSums::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MinimumOverlap: " << this->MinimumOverlap << "\n";
   os << indent << "RattlerContacts: " << this->RattlerContacts << "\n";
   os << indent << "FrictionCoefficient: " << this->FrictionCoefficient << "\n";
-  os << indent << "RadiusArray: " << TextOf(this->RadiusArray) << "\n";
+  os << indent << "RadiusArray: " << this->RadiusArray << "\n";
   os << indent << "ArraySelection:\n";
   this->ArraySelection->PrintSelf(os, indent.GetNextIndent());
 }

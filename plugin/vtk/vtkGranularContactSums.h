@@ -36,6 +36,8 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+#include <string> // for std::string
+
 class vtkAlgorithmOutput;
 class vtkDataArraySelection;
 class vtkPolyData;
@@ -67,15 +69,15 @@ public:
   /**
    * Sets the contacts between particles, and those with walls: input ports 1 and 2, both optional.
    */
-  void SetLinesConnection(vtkAlgorithmOutput* output);
-  void SetWallsConnection(vtkAlgorithmOutput* output);
+  void SetLinesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  void SetWallsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(2, output); }
   ///@}
 
   /**
    * Returns the selection of the arrays that are made. Those that are off cost nothing. Off by default are
    * `principal_stress`, `von_mises`, `rattler`, `coordination_without_rattlers` and `mobilised_friction`.
    */
-  virtual vtkDataArraySelection* GetArraySelection();
+  virtual vtkDataArraySelection* GetArraySelection() { return this->ArraySelection; }
 
   ///@{
   /**
@@ -121,15 +123,13 @@ public:
   /**
    * Sets the point array of radii ("radius" by default) [m].
    */
-  vtkSetStringMacro(RadiusArray);
-  vtkGetStringMacro(RadiusArray);
+  vtkSetStdStringFromCharMacro(RadiusArray);
+  vtkGetCharFromStdStringMacro(RadiusArray);
   ///@}
 
 protected:
   vtkGranularContactSums();
   ~vtkGranularContactSums() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -137,14 +137,14 @@ private:
   vtkGranularContactSums(const vtkGranularContactSums&) = delete;
   void operator=(const vtkGranularContactSums&) = delete;
 
-  class Summer;
+  class Task;
 
   int LeverArm = CONTACT_POINT;
   double MinimumForce = 0;
   double MinimumOverlap = 0;
   int RattlerContacts = 2;
   double FrictionCoefficient = 1;
-  char* RadiusArray = nullptr;
+  std::string RadiusArray = "radius";
   vtkDataArraySelection* const ArraySelection;
 };
 

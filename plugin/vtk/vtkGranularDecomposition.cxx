@@ -4,10 +4,10 @@
 #include "private/arrays/arrays.h"
 #include "private/decomposition/decomposition_algorithm.h"
 #include "private/dump/particles.h"
+#include "private/request/request_task.h"
 
 #include "granular/decomposition/count_particles.h"
 
-#include "vtkAlgorithmOutput.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -27,28 +27,15 @@ using namespace vtkGranularPrivate;
 vtkStandardNewMacro(vtkGranularDecomposition);
 
 //------------------------------------------------------------------------------
-/**
- * Does one request. Collective.
- */
-class vtkGranularDecomposition::Counter
+class vtkGranularDecomposition::Task : public FilterTask<vtkGranularDecomposition>
 {
 public:
-  Counter(
-    vtkGranularDecomposition* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
-    : Self(self)
-    , Shared(*self->Shared)
-    , Inputs(inputs)
-    , Output(vtkUnstructuredGrid::GetData(outputs))
-    , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
-    , Ranks(self->Ranks->Get())
-    , Own(self)
-    , Progress(this->Own, this->Ranks)
-  {
-  }
+  using FilterTask::FilterTask;
 
-  void Run()
+private:
+  void Execute() override
   {
-    this->ReadParticles();
+    this->Input.emplace(this->GetInput(0), this->Ranks);
     switch (this->Self->Mode)
     {
       case PROCESSOR_GRID:
@@ -67,25 +54,9 @@ public:
     this->Fill();
   }
 
-private:
-  granular::Executor MakeExecutor() const
-  {
-    return granular::Executor(ChooseThreads(this->Self->Threads, this->Ranks));
-  }
-
-  void ReadParticles()
-  {
-    this->Progress.step(0);
-    this->Input.emplace(vtkDataObject::GetData(this->Inputs[0]), this->Ranks);
-    this->Together = AreTogether(this->Wanted, this->Self->Mode == RANKS, this->Ranks);
-  }
-
   void SetOutside(std::int64_t own)
   {
-    if (this->Together)
-    {
-      this->Ranks.sum({ &own, 1 });
-    }
+    this->Group.sum({ &own, 1 });
     this->Outside = own;
   }
 
@@ -94,10 +65,7 @@ private:
    */
   void SetCounts(granular::ParticleCounts counts)
   {
-    if (this->Together)
-    {
-      this->Ranks.sum(counts.particles);
-    }
+    this->Group.sum(counts.particles);
     this->SetOutside(counts.outside);
     std::vector<granular::Subdomain>& all = this->Found.subdomains;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -110,30 +78,27 @@ private:
   {
     const auto [lo, hi] = this->Input->FindBounds(
       this->Self->Bounds, "the subdomains of its processes are tilted, too, and no voxels");
-    const granular::ProcessGrid grid = this->Shared.MakeGrid(this->Self, lo, hi);
+    const granular::ProcessGrid grid = this->Self->Shared->MakeGrid(this->Self, lo, hi);
     this->Found.subdomains = grid.subdomains(0, grid.size());
-    this->SetCounts(
-      granular::count_in_grid(this->Input->View(), grid, this->MakeExecutor(), this->Progress));
+    this->SetCounts(granular::count_in_grid(
+      this->Input->View(), grid, granular::Executor(this->Threads), this->Progress));
     this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
   }
 
   void CountInSubdomains()
   {
-    vtkInformation* info = this->Inputs[1]->GetInformationObject(0);
-    auto* voxels = info ? vtkUnstructuredGrid::GetData(info) : nullptr;
+    auto* voxels = vtkUnstructuredGrid::SafeDownCast(this->GetInput(1));
     if (!voxels)
     {
       throw granular::Error("expected the subdomains as voxels at the second input, got nothing");
     }
-    granular::Decomposition own = ReadVoxels(voxels, this->Notices);
-    this->Found =
-      this->Together ? granular::gather_decomposition(own, this->Ranks) : std::move(own);
+    this->Found = granular::gather_decomposition(ReadVoxels(voxels, this->Notices), this->Group);
     this->Found.has_particles = true;
     granular::SubdomainChecks checks;
     checks.gap = granular::Answer::None; // who is in one is outside, which is told
     granular::check_subdomains(this->Found.subdomains, checks, {}, this->Notices, this->Progress);
-    this->SetCounts(granular::count_in_subdomains(
-      this->Input->View(), this->Found.subdomains, this->MakeExecutor(), this->Progress));
+    this->SetCounts(granular::count_in_subdomains(this->Input->View(), this->Found.subdomains,
+      granular::Executor(this->Threads), this->Progress));
     this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
   }
 
@@ -141,19 +106,19 @@ private:
   {
     granular::ParticleBounds own;
     const granular::FrameView& view = this->Input->View();
-    const char* name = this->Self->ProcessArray ? this->Self->ProcessArray : "";
+    const std::string& name = this->Self->ProcessArray;
     const granular::ArrayView* process = view.find(name);
     if (view.rows > 0 && !process)
     {
       throw granular::Error(
-        "expected a point array '" + std::string(name) + "' with ranks of processes, got none");
+        "expected a point array '" + name + "' with ranks of processes, got none");
     }
     if (view.rows > 0)
     {
-      own = granular::bounds_by_process(view, *process, this->MakeExecutor(), this->Progress);
+      own = granular::bounds_by_process(
+        view, *process, granular::Executor(this->Threads), this->Progress);
     }
-    this->Found.subdomains = this->Together ? granular::join_by_process(own.subdomains, this->Ranks)
-                                            : std::move(own.subdomains);
+    this->Found.subdomains = granular::join_by_process(own.subdomains, this->Group);
     this->SetOutside(own.outside);
     for (const granular::Subdomain& subdomain : this->Found.subdomains)
     {
@@ -164,8 +129,8 @@ private:
 
   void FindByRank()
   {
-    granular::ParticleBounds own =
-      granular::bounds_of_particles(this->Input->View(), this->MakeExecutor(), this->Progress);
+    granular::ParticleBounds own = granular::bounds_of_particles(
+      this->Input->View(), granular::Executor(this->Threads), this->Progress);
     for (granular::Subdomain& subdomain : own.subdomains)
     {
       subdomain.rank = this->Ranks.rank();
@@ -226,85 +191,32 @@ private:
   {
     granular::Decomposition part = this->TakePart();
     this->Scale(part.subdomains);
-    VoxelForm form = this->Shared.MakeForm(this->Self);
-    form.Origin = this->Input->View().point_origin;
-    FillVoxels(this->Output, part, form, this->Progress);
-    vtkFieldData* data = this->Output->GetFieldData();
-    data->PassData(vtkDataObject::GetData(this->Inputs[0])->GetFieldData());
+    auto* output = this->GetOutput<vtkUnstructuredGrid>();
+    FillVoxels(output, part, { this->Input->View().point_origin, this->Threads }, this->Progress);
+    vtkFieldData* data = output->GetFieldData();
+    data->PassData(this->GetInput(0)->GetFieldData());
     data->AddArray(MakeDoubles(
       "imbalance", { granular::imbalance_of(this->Found.subdomains, this->Processes) }));
     data->AddArray(MakeInteger("outside", this->Outside));
-    if (this->Outside > 0)
-    {
-      this->Notices.push_back({ {},
-        std::to_string(this->Outside) + " particles are outside of all subdomains, and in none" });
-    }
-    for (const granular::Notice& notice : this->Notices)
-    {
-      if (this->Ranks.rank() == 0 || !this->Together)
-      {
-        vtkWarningWithObjectMacro(this->Self, << granular::to_string(notice));
-      }
-    }
-    this->Progress.step(1);
+    this->Tell(this->Outside > 0, "outside",
+      std::to_string(this->Outside) + " particles are outside of all subdomains, and in none");
   }
 
-  vtkGranularDecomposition* Self;
-  Internals& Shared;
-  vtkInformationVector** Inputs;
-  vtkUnstructuredGrid* Output;
-  PieceRequest Wanted;
-  granular::Communicator& Ranks;
-  AlgorithmProgress Own;
-  granular::SharedProgress Progress;
   std::optional<Particles> Input;
-  bool Together = false;
   granular::Decomposition Found; ///< all subdomains
   std::int64_t Processes = 0;    ///< of which some may have no particles, and no subdomain
   std::int64_t Outside = 0;
-  granular::Notices Notices;
 };
 
 //------------------------------------------------------------------------------
 vtkGranularDecomposition::vtkGranularDecomposition()
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetProcessArray("proc");
+  this->SetPorts({ Input::Required, Input::Optional }, { "vtkUnstructuredGrid" });
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Bounds[2 * axis] = 1; // the input's
     this->Bounds[2 * axis + 1] = -1;
   }
-}
-
-//------------------------------------------------------------------------------
-vtkGranularDecomposition::~vtkGranularDecomposition()
-{
-  this->SetProcessArray(nullptr);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecomposition::SetSubdomainsConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(1, output);
-}
-
-//------------------------------------------------------------------------------
-// A composite is taken as a whole, and refused: handed over block by block, it would have processes with
-// different numbers of blocks wait for each other.
-int vtkGranularDecomposition::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  }
-  else
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -323,9 +235,9 @@ int vtkGranularDecomposition::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 void vtkGranularDecomposition::Execute(
-  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  Counter(this, inputs, outputs).Run();
+  Task(this, request, inputs, outputs, this->Mode == RANKS).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -333,5 +245,5 @@ void vtkGranularDecomposition::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Mode: " << this->Mode << "\n";
-  os << indent << "ProcessArray: " << (this->ProcessArray ? this->ProcessArray : "(none)") << "\n";
+  os << indent << "ProcessArray: " << this->ProcessArray << "\n";
 }

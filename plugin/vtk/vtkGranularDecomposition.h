@@ -20,6 +20,8 @@
 #include "vtkGranularDecompositionAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+#include <string> // for std::string
+
 class VTKGRANULAR_EXPORT vtkGranularDecomposition : public vtkGranularDecompositionAlgorithm
 {
 public:
@@ -51,20 +53,19 @@ public:
   /**
    * Sets the point array for PROCESS_ARRAY: the rank that owns each particle, integers from 0. "proc" by default.
    */
-  vtkSetStringMacro(ProcessArray);
-  vtkGetStringMacro(ProcessArray);
+  vtkSetStdStringFromCharMacro(ProcessArray);
+  vtkGetCharFromStdStringMacro(ProcessArray);
   ///@}
 
   /**
    * Sets the voxels for SUBDOMAINS: input port 1. Their nlocal is not used.
    */
-  void SetSubdomainsConnection(vtkAlgorithmOutput* output);
+  void SetSubdomainsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
 protected:
   vtkGranularDecomposition();
-  ~vtkGranularDecomposition() override;
+  ~vtkGranularDecomposition() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   void Execute(
@@ -74,10 +75,10 @@ private:
   vtkGranularDecomposition(const vtkGranularDecomposition&) = delete;
   void operator=(const vtkGranularDecomposition&) = delete;
 
-  class Counter;
+  class Task;
 
   int Mode = PROCESSOR_GRID;
-  char* ProcessArray = nullptr;
+  std::string ProcessArray = "proc";
 };
 
 #endif

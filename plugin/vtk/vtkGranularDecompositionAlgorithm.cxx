@@ -3,7 +3,6 @@
 
 #include "private/decomposition/decomposition_algorithm.h"
 
-#include "vtkInformation.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -25,18 +24,8 @@ granular::ProcessGrid vtkGranularDecompositionAlgorithm::Internals::MakeGrid(
 }
 
 //------------------------------------------------------------------------------
-VoxelForm vtkGranularDecompositionAlgorithm::Internals::MakeForm(
-  vtkGranularDecompositionAlgorithm* self)
-{
-  VoxelForm form;
-  form.Threads = ChooseThreads(self->Threads, self->Ranks->Get());
-  return form;
-}
-
-//------------------------------------------------------------------------------
 vtkGranularDecompositionAlgorithm::vtkGranularDecompositionAlgorithm()
-  : Bounds{ 0, 1, 0, 1, 0, 1 }
-  , Shared(std::make_unique<Internals>())
+  : Shared(std::make_unique<Internals>())
 {
 }
 
@@ -61,42 +50,6 @@ void vtkGranularDecompositionAlgorithm::ClearCuts(int axis)
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::AddXCut(double position)
-{
-  this->AddCut(0, position);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::AddYCut(double position)
-{
-  this->AddCut(1, position);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::AddZCut(double position)
-{
-  this->AddCut(2, position);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::ClearXCuts()
-{
-  this->ClearCuts(0);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::ClearYCuts()
-{
-  this->ClearCuts(1);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionAlgorithm::ClearZCuts()
-{
-  this->ClearCuts(2);
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularDecompositionAlgorithm::GetNumberOfCuts(int axis)
 {
   return axis >= 0 && axis < 3 ? static_cast<int>(this->Shared->Cuts[axis].size()) : 0;
@@ -106,14 +59,6 @@ int vtkGranularDecompositionAlgorithm::GetNumberOfCuts(int axis)
 vtkUnstructuredGrid* vtkGranularDecompositionAlgorithm::GetOutput()
 {
   return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDecompositionAlgorithm::FillOutputPortInformation(
-  int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
-  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -63,12 +63,12 @@ public:
   /**
    * Adds a cut along an axis: p - 1 positions inside the bounds, ascending. None, the default: equal parts.
    */
-  void AddXCut(double position);
-  void AddYCut(double position);
-  void AddZCut(double position);
-  void ClearXCuts();
-  void ClearYCuts();
-  void ClearZCuts();
+  void AddXCut(double position) { this->AddCut(0, position); }
+  void AddYCut(double position) { this->AddCut(1, position); }
+  void AddZCut(double position) { this->AddCut(2, position); }
+  void ClearXCuts() { this->ClearCuts(0); }
+  void ClearYCuts() { this->ClearCuts(1); }
+  void ClearZCuts() { this->ClearCuts(2); }
   int GetNumberOfCuts(int axis);
   ///@}
 
@@ -76,9 +76,7 @@ protected:
   vtkGranularDecompositionAlgorithm();
   ~vtkGranularDecompositionAlgorithm() override;
 
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-
-  double Bounds[6];
+  double Bounds[6] = { 0, 1, 0, 1, 0, 1 };
   int NumberOfProcesses = 0;
   int ProcessorGrid[3] = { 1, 1, 1 };
 

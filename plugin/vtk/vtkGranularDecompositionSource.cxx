@@ -16,11 +16,8 @@ vtkStandardNewMacro(vtkGranularDecompositionSource);
 //------------------------------------------------------------------------------
 vtkGranularDecompositionSource::vtkGranularDecompositionSource()
 {
-  this->SetNumberOfInputPorts(0);
+  this->SetPorts({}, { "vtkUnstructuredGrid" });
 }
-
-//------------------------------------------------------------------------------
-vtkGranularDecompositionSource::~vtkGranularDecompositionSource() = default;
 
 //------------------------------------------------------------------------------
 void vtkGranularDecompositionSource::Execute(vtkInformation* vtkNotUsed(request),
@@ -33,18 +30,14 @@ void vtkGranularDecompositionSource::Execute(vtkInformation* vtkNotUsed(request)
   const auto [first, last] =
     PieceRequest::Of(outputs->GetInformationObject(0)).RangeOf(grid.size());
   auto* output = vtkUnstructuredGrid::GetData(outputs);
+  granular::Communicator& ranks = this->Ranks->Get();
   AlgorithmProgress own(this);
-  granular::SharedProgress progress(own, this->Ranks->Get());
-  FillVoxels(output, { grid.subdomains(first, last) }, this->Shared->MakeForm(this), progress);
+  granular::SharedProgress progress(own, ranks);
+  FillVoxels(output, { grid.subdomains(first, last) }, { {}, ChooseThreads(this->Threads, ranks) },
+    progress);
   granular::FrameHeader header;
   header.box = granular::Box::from_bounds(lo, hi);
   header.box.boundary = "ff ff ff";
   FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
   output->GetFieldData()->RemoveArray("timestep"); // it has none
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionSource::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
 }

@@ -18,11 +18,10 @@ class VTKGRANULAR_EXPORT vtkGranularDecompositionSource : public vtkGranularDeco
 public:
   static vtkGranularDecompositionSource* New();
   vtkTypeMacro(vtkGranularDecompositionSource, vtkGranularDecompositionAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
   vtkGranularDecompositionSource();
-  ~vtkGranularDecompositionSource() override;
+  ~vtkGranularDecompositionSource() override = default;
 
   void Execute(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -37,6 +37,8 @@
 #include "vtkGranularAverageAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+#include <string> // for std::string
+
 class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkGranularAverageAlgorithm
 {
 public:
@@ -139,8 +141,8 @@ public:
    * Sets the point array of the stress of particles times their volume, six components xx yy zz xy xz yz as `compute stress/atom`
    * gives them, which becomes the array c_ID of dumps; none by default. Not together with contacts, which would count twice.
    */
-  vtkSetStringMacro(StressArray);
-  vtkGetStringMacro(StressArray);
+  vtkSetStdStringFromCharMacro(StressArray);
+  vtkGetCharFromStdStringMacro(StressArray);
   ///@}
 
   ///@{
@@ -155,9 +157,8 @@ public:
   ///@}
 
 protected:
-  vtkGranularEulerAverage();
-  ~vtkGranularEulerAverage() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkGranularEulerAverage() = default;
+  ~vtkGranularEulerAverage() override = default;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
@@ -169,7 +170,7 @@ private:
   vtkGranularEulerAverage(const vtkGranularEulerAverage&) = delete;
   void operator=(const vtkGranularEulerAverage&) = delete;
 
-  class Averager;
+  class Task;
 
   int OutputType = IMAGE_DATA;
   int CellsBy = COUNTS;
@@ -181,7 +182,7 @@ private:
   int Weights = OVERLAP;
   int KernelBounds = ALL_SPACE;
   int Periodic = BOUNDARY;
-  char* StressArray = nullptr;
+  std::string StressArray;
   bool TimeAverage = false;
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularHistory.h"
 
-#include "private/paths/path_follower.h"
-#include "private/request/text_of.h"
+#include "private/paths/path_task.h"
 
 #include "granular/common/words.h"
 #include "granular/parallel/executor.h"
@@ -29,6 +28,27 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+namespace vtkGranularPrivate
+{
+/**
+ * A column of the table: numbers of each frame.
+ */
+struct Column
+{
+  std::string Name;
+  int Size = 1;
+  std::vector<double> Values;
+};
+
+template <class Archive>
+void pass(Archive& archive, typename Archive::template Passed<Column>& column)
+{
+  archive.text(column.Name);
+  archive.number(column.Size);
+  granular::pass(archive, column.Values);
+}
+}
 
 using namespace vtkGranularPrivate;
 
@@ -79,24 +99,17 @@ std::vector<double> NumbersOf(const granular::PathArray& array, int component)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Does one request. Collective.
- */
-class vtkGranularHistory::Maker : public vtkGranularPathAlgorithm::Follower
+class vtkGranularHistory::Task : public FilterTask<vtkGranularHistory, PathTask>
 {
 public:
-  Maker(vtkGranularHistory* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
-    : Follower(self, inputs, outputs)
-    , Filter(self)
-    , Output(vtkTable::GetData(outputs))
-  {
-  }
+  using FilterTask::FilterTask;
 
-  void Run()
+private:
+  void Execute() override
   {
     this->Choose();
-    const bool msd = this->Filter->MeanSquareDisplacement;
-    const bool statistics = this->Filter->OutputType == STATISTICS;
+    const bool msd = this->Self->MeanSquareDisplacement;
+    const bool statistics = this->Self->OutputType == STATISTICS;
     std::vector<Column> columns;
     if (!statistics)
     {
@@ -109,32 +122,6 @@ public:
       this->GoThrough(columns, msd, statistics);
     }
     this->Fill(columns);
-    this->Tell();
-  }
-
-private:
-  /**
-   * A column of the table: numbers of each frame.
-   */
-  struct Column
-  {
-    std::string Name;
-    int Size = 1;
-    std::vector<double> Values;
-  };
-
-  friend void pass(granular::ArchiveWriter& archive, const Column& column)
-  {
-    archive.text(column.Name);
-    archive.number(column.Size);
-    granular::pass(archive, column.Values);
-  }
-
-  friend void pass(granular::ArchiveReader& archive, Column& column)
-  {
-    archive.text(column.Name);
-    archive.number(column.Size);
-    granular::pass(archive, column.Values);
   }
 
   /**
@@ -145,9 +132,8 @@ private:
     const granular::Paths paths = this->Join(
       this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress), false);
     this->TakeTimesteps(paths.headers);
-    granular::Communicator& ranks = this->Frames.GetRanks();
     std::int64_t count = static_cast<std::int64_t>(paths.ids.size());
-    ranks.sum({ &count, 1 });
+    this->Group.sum({ &count, 1 });
     if (count > MostParticles)
     {
       throw granular::LimitError("expected at most " + std::to_string(MostParticles) +
@@ -171,7 +157,7 @@ private:
       }
     }
     std::vector<Column> all;
-    for (std::vector<Column>& some : granular::gather(ranks, columns))
+    for (std::vector<Column>& some : granular::gather(this->Group, columns))
     {
       std::ranges::move(some, std::back_inserter(all));
     }
@@ -220,11 +206,12 @@ private:
       request.arrays.clear();
     }
     const granular::Executor executor(this->Threads);
-    granular::SquareDisplacements squares(this->Frames.GetRanks(), executor, this->Origin);
+    granular::SquareDisplacements squares(this->Group, executor, this->Origin);
     std::vector<granular::FrameHeader> headers;
     std::vector<Series> series;
     this->Lacking = request.arrays;
-    granular::PathFrame frame;
+    std::vector<granular::PathFrame> frames(1); // one, as share_kinds wants it
+    granular::PathFrame& frame = frames.front();
     for (std::size_t i = 0; i < this->Numbers.size(); ++i)
     {
       this->Part.set_part(static_cast<double>(i) / static_cast<double>(this->Numbers.size()),
@@ -244,11 +231,11 @@ private:
       const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
       if (!msd) // otherwise they are looked up anyway
       {
-        granular::expect_distinct_ids(frame, nameRows, this->Frames.GetRanks());
+        granular::expect_distinct_ids(frame, nameRows, this->Group);
       }
       if (statistics)
       {
-        this->AddStatistics(frame, add);
+        this->AddStatistics(frames, add);
       }
       if (msd)
       {
@@ -263,7 +250,7 @@ private:
     {
       granular::expect_none(this->Lacking);
     }
-    std::ranges::transform(series, std::back_inserter(columns), &Maker::Flatten);
+    std::ranges::transform(series, std::back_inserter(columns), &Task::Flatten);
     this->TakeTimesteps(headers);
     if (const std::size_t empty = squares.empty_frames(); empty > 0 && empty < headers.size())
     {
@@ -307,18 +294,15 @@ private:
   }
 
   template <typename Add>
-  void AddStatistics(granular::PathFrame& frame, const Add& add)
+  void AddStatistics(std::vector<granular::PathFrame>& frames, const Add& add)
   {
-    granular::Communicator& ranks = this->Frames.GetRanks();
-    std::vector<granular::PathFrame> frames(1);
-    std::swap(frames[0], frame);
-    const std::vector<std::string> lacking = granular::share_kinds(frames, ranks);
-    std::swap(frames[0], frame);
+    const std::vector<std::string> lacking = granular::share_kinds(frames, this->Group);
+    const granular::PathFrame& frame = frames.front();
     std::int64_t count = static_cast<std::int64_t>(frame.ids.size());
-    ranks.sum({ &count, 1 });
+    this->Group.sum({ &count, 1 });
     add("particles", { static_cast<double>(count) });
     this->NoteLacking(lacking, count);
-    const auto quantiles = QuantilesIn(TextOf(this->Filter->Quantiles));
+    const auto quantiles = QuantilesIn(this->Self->Quantiles);
     std::vector<double> parts;
     for (const auto& [word, value] : quantiles)
     {
@@ -330,7 +314,7 @@ private:
       for (int component = 0; component < array.size; ++component)
       {
         const granular::Statistics found =
-          granular::find_statistics(NumbersOf(array, component), parts, ranks);
+          granular::find_statistics(NumbersOf(array, component), parts, this->Group);
         values[0].push_back(found.mean);
         values[1].push_back(found.least);
         values[2].push_back(found.greatest);
@@ -381,8 +365,9 @@ private:
     {
       timesteps->InsertNextValue(timestep);
     }
-    this->Output->AddColumn(times);
-    this->Output->AddColumn(timesteps);
+    auto* output = this->GetOutput<vtkTable>();
+    output->AddColumn(times);
+    output->AddColumn(timesteps);
     for (const Column& column : columns)
     {
       vtkNew<vtkDoubleArray> array;
@@ -390,12 +375,10 @@ private:
       array->SetNumberOfComponents(column.Size);
       array->SetNumberOfTuples(static_cast<vtkIdType>(column.Values.size()) / column.Size);
       std::ranges::copy(column.Values, array->GetPointer(0));
-      this->Output->AddColumn(array);
+      output->AddColumn(array);
     }
   }
 
-  vtkGranularHistory* Filter;
-  vtkTable* Output;
   granular::Progress& Whole = this->Progress;    ///< a PartialProgress would be copied
   granular::PartialProgress Part{ this->Whole }; ///< of a frame
   std::vector<std::int64_t> Timesteps;
@@ -406,26 +389,13 @@ private:
 //------------------------------------------------------------------------------
 vtkGranularHistory::vtkGranularHistory()
 {
-  this->SetQuantiles("0.5");
-}
-
-//------------------------------------------------------------------------------
-vtkGranularHistory::~vtkGranularHistory()
-{
-  this->SetQuantiles(nullptr);
+  this->SetPorts({ Input::Required }, { "vtkTable" });
 }
 
 //------------------------------------------------------------------------------
 vtkTable* vtkGranularHistory::GetOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularHistory::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -440,10 +410,10 @@ int vtkGranularHistory::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularHistory::Execute(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkGranularHistory::Execute(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  Maker(this, inputVector, outputVector).Run();
+  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -451,7 +421,7 @@ void vtkGranularHistory::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "OutputType: " << this->OutputType << "\n";
-  os << indent << "Quantiles: " << TextOf(this->Quantiles) << "\n";
+  os << indent << "Quantiles: " << this->Quantiles << "\n";
   os << indent << "MeanSquareDisplacement: " << (this->MeanSquareDisplacement ? "On" : "Off")
      << "\n";
 }

@@ -24,6 +24,8 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularPathAlgorithm.h"
 
+#include <string> // for std::string
+
 class vtkTable;
 
 class VTKGRANULAR_EXPORT vtkGranularHistory : public vtkGranularPathAlgorithm
@@ -57,8 +59,8 @@ public:
    * Sets the quantiles of STATISTICS: numbers from 0 to 1, separated by blanks or commas. The quantile q is the smallest of
    * the numbers up to which at least the part q of them lies. "0.5" by default: the median.
    */
-  vtkSetStringMacro(Quantiles);
-  vtkGetStringMacro(Quantiles);
+  vtkSetStdStringFromCharMacro(Quantiles);
+  vtkGetCharFromStdStringMacro(Quantiles);
   ///@}
 
   ///@{
@@ -72,8 +74,7 @@ public:
 
 protected:
   vtkGranularHistory();
-  ~vtkGranularHistory() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  ~vtkGranularHistory() override = default;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
@@ -83,10 +84,10 @@ private:
   vtkGranularHistory(const vtkGranularHistory&) = delete;
   void operator=(const vtkGranularHistory&) = delete;
 
-  class Maker;
+  class Task;
 
   int OutputType = PARTICLES;
-  char* Quantiles = nullptr;
+  std::string Quantiles = "0.5";
   bool MeanSquareDisplacement = false;
 };
 

@@ -6,9 +6,7 @@
 #include "private/dump/shared_names.h"
 #include "private/local/lines.h"
 #include "private/local/local_rows.h"
-#include "private/request/piece_request.h"
-#include "private/request/processes.h"
-#include "private/request/text_of.h"
+#include "private/request/request_task.h"
 
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
@@ -63,37 +61,20 @@ std::span<double> DoublesIn(const granular::Block& block)
 }
 
 //------------------------------------------------------------------------------
-/**
- * Does one request. Collective.
- */
-class vtkGranularLocalJoin::Joiner
+class vtkGranularLocalJoin::Task : public FilterTask<vtkGranularLocalJoin>
 {
 public:
-  Joiner(vtkGranularLocalJoin* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
-    : Self(self)
-    , Inputs{ vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(inputs[1]) }
-    , LinesHaveTimes(inputs[1]->GetInformationObject(0)->Length(Pipeline::TIME_STEPS()) > 1)
-    , Output(vtkPolyData::GetData(outputs))
-    , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
-    , Ranks(self->Ranks->Get())
-    , Own(self)
-    , Shared(this->Own, this->Ranks)
-    , Progress(this->Shared)
-  {
-  }
-
-  void Run()
-  {
-    this->Progress.step(0);
-    this->Input.emplace(this->Inputs[0], this->Ranks);
-    this->Together = AreTogether(this->Wanted, false, this->Ranks);
-    granular::SerialCommunicator alone;
-    this->Join(this->Together ? this->Ranks : alone);
-    this->Fill();
-    this->Tell();
-  }
+  using FilterTask::FilterTask;
 
 private:
+  void Execute() override
+  {
+    this->Input.emplace(this->GetInput(0), this->Ranks);
+    this->Join();
+    this->Fill();
+    this->TellOfLines();
+  }
+
   /**
    * What is counted, over all processes.
    */
@@ -107,29 +88,29 @@ private:
   /**
    * With the particles and rows that these processes have together.
    */
-  void Join(granular::Communicator& ranks)
+  void Join()
   {
     granular::JoinRequest request;
     this->ReadRows();
-    this->ShareNames(request, ranks);
-    this->ShareBox(ranks);
+    this->ShareNames(request);
+    this->ShareBox();
     const std::vector<std::int64_t> id1 = this->Rows->ReadIds("id1", this->Progress);
     const std::vector<std::int64_t> id2 = this->Rows->ReadIds("id2", this->Progress);
-    request.threads = ChooseThreads(this->Self->Threads, this->Ranks);
+    request.threads = this->Threads;
     this->Progress.set_part(0, 0.6);
     this->Joined =
-      granular::join_lines(this->Input->View(), id1, id2, request, ranks, this->Progress);
+      granular::join_lines(this->Input->View(), id1, id2, request, this->Group, this->Progress);
     this->Progress.set_part(0.6, 0.95);
-    this->MakeLines(request.threads);
+    this->MakeLines();
     this->FindElongations();
     this->CountMisfits();
     this->Remarks = { this->FindExample(id1, id2), this->CompareTimesteps() };
     std::array<std::int64_t, 3> sums = { this->All.Rows, this->All.Misfits, this->All.WithoutRest };
-    ranks.sum(sums);
+    this->Group.sum(sums);
     this->All = { sums[0], sums[1], sums[2] };
     for (std::string& remark : this->Remarks)
     {
-      const std::vector<std::string> said = ranks.all_gather(remark);
+      const std::vector<std::string> said = this->Group.all_gather(remark);
       const auto first = std::ranges::find_if(said, [](const auto& text) { return !text.empty(); });
       remark = first == said.end() ? std::string() : *first;
     }
@@ -137,15 +118,15 @@ private:
 
   void ReadRows()
   {
-    this->Rows.emplace(this->Inputs[1]);
+    this->Rows.emplace(this->GetInput(1));
     if (!this->Together)
     {
-      const auto range = this->Wanted.RangeOf(this->Rows->Count());
+      const auto range = this->RangeOf(this->Rows->Count());
       this->FirstRow = range.first;
       this->Rows->Keep(range);
     }
     this->All.Rows = this->Rows->Count();
-    this->RestKnown = this->Rows->Has(TextOf(this->Self->EquilibriumLengthArray));
+    this->RestKnown = this->Rows->Has(this->Self->EquilibriumLengthArray.c_str());
     const double rest = this->Self->EquilibriumLength;
     if (!(rest >= 0 && rest <= std::numeric_limits<double>::max()))
     {
@@ -158,28 +139,24 @@ private:
    * What all must know alike, also those who have no particles or no rows, and then perhaps no arrays: the names that
    * "*" stands for, whether there are equilibrium lengths, and where the rows of each begin.
    */
-  void ShareNames(granular::JoinRequest& request, granular::Communicator& ranks)
+  void ShareNames(granular::JoinRequest& request)
   {
-    std::array<std::vector<std::string>*, 2> lists = { &request.means, &request.differences };
-    const std::array<const char*, 2> given = { this->Self->Averages, this->Self->Differences };
-    for (std::size_t i = 0; i < lists.size(); ++i)
-    {
-      *lists[i] = vtkGranularPrivate::ShareNames(given[i], this->Input->View(), ranks);
-    }
+    const granular::FrameView& view = this->Input->View();
+    request.means = vtkGranularPrivate::ShareNames(this->Self->Averages, view, this->Group);
+    request.differences =
+      vtkGranularPrivate::ShareNames(this->Self->Differences, view, this->Group);
     std::int64_t with = this->RestKnown ? 1 : 0;
-    ranks.sum({ &with, 1 });
+    this->Group.sum({ &with, 1 });
     this->RestKnown = with > 0;
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.size()));
-    counts[static_cast<std::size_t>(ranks.rank())] = this->All.Rows;
-    ranks.sum(counts);
+    const std::vector<std::int64_t> counts = granular::gather(this->Group, this->All.Rows);
     this->FirstRow +=
-      std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::int64_t{ 0 });
+      std::accumulate(counts.begin(), counts.begin() + this->Group.rank(), std::int64_t{ 0 });
   }
 
   /**
    * Where the particles have lost their box it is that of the lines.
    */
-  void ShareBox(granular::Communicator& ranks)
+  void ShareBox()
   {
     granular::FrameView& particles = this->Input->View();
     if (particles.has_box)
@@ -191,7 +168,7 @@ private:
     lines.rows = this->Rows->Count();
     lines.has_box = box.has_value();
     lines.header.box = box.value_or(granular::Box{});
-    granular::share_header(lines, ranks);
+    granular::share_header(lines, this->Group);
     this->BoxIsOfLines = lines.has_box;
     particles.has_box = lines.has_box;
     std::swap(particles.header.box, lines.header.box);
@@ -200,7 +177,7 @@ private:
   /**
    * Scaled points: the lines are made where the particles are, and then scaled as these were.
    */
-  void MakeLines(int threads)
+  void MakeLines()
   {
     const granular::FrameView& view = this->Input->View();
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
@@ -215,7 +192,7 @@ private:
       request.periodic = granular::PeriodicLines::MinimumImage;
     }
     request.point_origin = scaled ? granular::Vector3{} : view.point_origin;
-    request.threads = threads;
+    request.threads = this->Threads;
     this->Lines = granular::make_lines(
       DoublesIn(this->Joined.first), DoublesIn(this->Joined.second), box, request, this->Progress);
     if (scaled && this->Lines.count > 0)
@@ -241,7 +218,7 @@ private:
     std::vector<double> rest;
     if (this->RestKnown)
     {
-      rest = this->ReadNumbers(this->Self->EquilibriumLengthArray);
+      rest = this->ReadNumbers(this->Self->EquilibriumLengthArray.c_str());
     }
     else if (constant > 0)
     {
@@ -291,9 +268,11 @@ private:
 
   std::string CompareTimesteps() const
   {
-    return this->LinesHaveTimes ? vtkGranularPrivate::CompareTimesteps(
-                                    this->Inputs[0]->GetFieldData(), this->Rows->GetFieldData())
-                                : std::string();
+    // lines of a single time, or none, are those of all times
+    return this->Self->GetInputInformation(1, 0)->Length(Pipeline::TIME_STEPS()) > 1
+      ? vtkGranularPrivate::CompareTimesteps(
+          this->GetInput(0)->GetFieldData(), this->Rows->GetFieldData())
+      : std::string();
   }
 
   /**
@@ -327,7 +306,7 @@ private:
       data->AddArray(TakeRows(this->Elongations, this->Lines));
       data->AddArray(TakeRows(this->Strains, this->Lines));
     }
-    vtkPointData* points = vtkPointSet::SafeDownCast(this->Inputs[0])->GetPointData();
+    vtkPointData* points = vtkPointSet::SafeDownCast(this->GetInput(0))->GetPointData();
     for (granular::EndArray& array : this->Joined.arrays)
     {
       auto made = TakeDoubles(array.name.c_str(), array.values, this->Joined.count, array.size);
@@ -344,13 +323,11 @@ private:
     }
     FillLines(this->Output, this->Lines, nullptr);
     this->FillFields(this->Output->GetFieldData());
-    this->Progress.set_part(1, 1);
-    this->Progress.step(1);
   }
 
   void FillFields(vtkFieldData* fields) const
   {
-    fields->PassData(this->Inputs[0]->GetFieldData());
+    fields->PassData(this->GetInput(0)->GetFieldData());
     fields->RemoveArray("Columns"); // of particles
     std::vector<const char*> ofLines = { "Columns", "RowLabel" };
     if (this->BoxIsOfLines)
@@ -366,50 +343,32 @@ private:
     }
   }
 
-  void Tell()
+  void TellOfLines()
   {
-    std::vector<Processes::Remark> remarks;
-    const auto tell = [&](bool is, const char* topic, const std::string& text)
-    {
-      if (is && (this->Ranks.rank() == 0 || !this->Together))
-      {
-        remarks.push_back({ topic, text });
-      }
-    };
-    tell(this->All.Rows == 0 && this->Rows->LackPlaces(), "no places",
+    this->Tell(this->All.Rows == 0 && this->Rows->LackPlaces(), "no places",
       "the input Lines has no lines, as its file does not say where these are: take the rows, the "
       "second output of the reader");
     const std::string ofRows = " of " + std::to_string(this->All.Rows) + " lines ";
-    tell(this->Joined.missing > 0, "missing",
+    this->Tell(this->Joined.missing > 0, "missing",
       std::to_string(this->Joined.missing) + ofRows +
         "are left out: no particle has the id of an end, as in " + this->Remarks[0]);
-    tell(this->Joined.repeated > 0, "repeated",
+    this->Tell(this->Joined.repeated > 0, "repeated",
       std::to_string(this->Joined.repeated) +
         " particles have the id of another one: lines go to the first");
-    tell(this->All.WithoutRest > 0, "no rest",
+    this->Tell(this->All.WithoutRest > 0, "no rest",
       std::to_string(this->All.WithoutRest) + ofRows +
         "have an equilibrium length of 0: their elongation and strain are nan");
-    tell(this->All.Misfits > 0, "misfits",
+    this->Tell(this->All.Misfits > 0, "misfits",
       std::to_string(this->All.Misfits) + ofRows +
         "are not as long as their array dist says: box or timestep are not those of the particles");
-    tell(!this->Remarks[1].empty(), "timesteps", this->Remarks[1]);
+    this->Tell(!this->Remarks[1].empty(), "timesteps", this->Remarks[1]);
     const bool whole = this->Input->View().has_box || this->Self->PeriodicLines == AS_WRITTEN;
-    tell(!whole && this->All.Rows > this->Joined.missing, "no box",
+    this->Tell(!whole && this->All.Rows > this->Joined.missing, "no box",
       "neither the particles nor the lines have a box in their field data (BoxOrigin, "
       "BoxVectors): lines are as written");
-    this->Self->Ranks->Warn(this->Self, remarks);
   }
 
-  vtkGranularLocalJoin* Self;
-  std::array<vtkDataObject*, 2> Inputs;
-  bool LinesHaveTimes; ///< or else they are those of all times
-  vtkPolyData* Output;
-  PieceRequest Wanted;
-  granular::Communicator& Ranks;
-  AlgorithmProgress Own;
-  granular::SharedProgress Shared;
-  granular::PartialProgress Progress;
-  bool Together = false;
+  vtkPolyData* const Output = this->GetOutput<vtkPolyData>();
   std::optional<Particles> Input;
   std::optional<LocalRows> Rows;
   std::int64_t FirstRow = 0; ///< of these, among all
@@ -426,16 +385,7 @@ private:
 //------------------------------------------------------------------------------
 vtkGranularLocalJoin::vtkGranularLocalJoin()
 {
-  this->SetNumberOfInputPorts(2);
-  this->SetEquilibriumLengthArray("equilibrium_length");
-}
-
-//------------------------------------------------------------------------------
-vtkGranularLocalJoin::~vtkGranularLocalJoin()
-{
-  this->SetAverages(nullptr);
-  this->SetDifferences(nullptr);
-  this->SetEquilibriumLengthArray(nullptr);
+  this->SetPorts({ Input::Required, Input::Required }, { "vtkPolyData" });
 }
 
 //------------------------------------------------------------------------------
@@ -445,31 +395,10 @@ vtkPolyData* vtkGranularLocalJoin::GetOutput()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularLocalJoin::SetLinesConnection(vtkAlgorithmOutput* output)
+void vtkGranularLocalJoin::Execute(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->SetInputConnection(1, output);
-}
-
-//------------------------------------------------------------------------------
-// All data come in, and are looked at by all processes together: see Particles and LocalRows.
-int vtkGranularLocalJoin::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularLocalJoin::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularLocalJoin::Execute(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Joiner(this, inputVector, outputVector).Run();
+  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -477,8 +406,8 @@ void vtkGranularLocalJoin::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-  os << indent << "Averages: " << TextOf(this->Averages) << "\n";
-  os << indent << "Differences: " << TextOf(this->Differences) << "\n";
-  os << indent << "EquilibriumLengthArray: " << TextOf(this->EquilibriumLengthArray) << "\n";
+  os << indent << "Averages: " << this->Averages << "\n";
+  os << indent << "Differences: " << this->Differences << "\n";
+  os << indent << "EquilibriumLengthArray: " << this->EquilibriumLengthArray << "\n";
   os << indent << "EquilibriumLength: " << this->EquilibriumLength << "\n";
 }

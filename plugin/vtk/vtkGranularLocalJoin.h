@@ -31,6 +31,8 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+#include <string> // for std::string
+
 class vtkAlgorithmOutput;
 class vtkPolyData;
 
@@ -56,7 +58,7 @@ public:
   /**
    * Sets the rows: input port 1.
    */
-  void SetLinesConnection(vtkAlgorithmOutput* output);
+  void SetLinesConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
 
   ///@{
   /**
@@ -73,10 +75,10 @@ public:
    * Sets the point arrays of the particles for which lines get A_mean and A_difference: names separated by blanks or
    * commas; "*" stands for all numeric arrays but id. None by default.
    */
-  vtkSetStringMacro(Averages);
-  vtkGetStringMacro(Averages);
-  vtkSetStringMacro(Differences);
-  vtkGetStringMacro(Differences);
+  vtkSetStdStringFromCharMacro(Averages);
+  vtkGetCharFromStdStringMacro(Averages);
+  vtkSetStdStringFromCharMacro(Differences);
+  vtkGetCharFromStdStringMacro(Differences);
   ///@}
 
   ///@{
@@ -85,17 +87,15 @@ public:
    * differ in it ("equilibrium_length" by default). Without it EquilibriumLength counts, 0 or more; 0, the default: not
    * known.
    */
-  vtkSetStringMacro(EquilibriumLengthArray);
-  vtkGetStringMacro(EquilibriumLengthArray);
+  vtkSetStdStringFromCharMacro(EquilibriumLengthArray);
+  vtkGetCharFromStdStringMacro(EquilibriumLengthArray);
   vtkSetMacro(EquilibriumLength, double);
   vtkGetMacro(EquilibriumLength, double);
   ///@}
 
 protected:
   vtkGranularLocalJoin();
-  ~vtkGranularLocalJoin() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  ~vtkGranularLocalJoin() override = default;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -103,12 +103,12 @@ private:
   vtkGranularLocalJoin(const vtkGranularLocalJoin&) = delete;
   void operator=(const vtkGranularLocalJoin&) = delete;
 
-  class Joiner;
+  class Task;
 
   int PeriodicLines = MINIMUM_IMAGE;
-  char* Averages = nullptr;
-  char* Differences = nullptr;
-  char* EquilibriumLengthArray = nullptr;
+  std::string Averages;
+  std::string Differences;
+  std::string EquilibriumLengthArray = "equilibrium_length";
   double EquilibriumLength = 0;
 };
 

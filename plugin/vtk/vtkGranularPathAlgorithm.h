@@ -22,6 +22,8 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
+#include <string> // for std::string
+
 class VTKGRANULAR_EXPORT vtkGranularPathAlgorithm : public vtkGranularAlgorithm
 {
 public:
@@ -33,8 +35,8 @@ public:
    * Sets the ids: ids and ranges, separated by blanks or commas. 10-20 is a range with both ends, 100-900:50 every fiftieth
    * id from 100 on. Empty, the default: all ids.
    */
-  vtkSetStringMacro(Ids);
-  vtkGetStringMacro(Ids);
+  vtkSetStdStringFromCharMacro(Ids);
+  vtkGetCharFromStdStringMacro(Ids);
   ///@}
 
   ///@{
@@ -97,16 +99,15 @@ public:
    * Sets the point arrays of the input that are followed: names separated by blanks or commas; "*" stands for all numeric
    * arrays but id that the input has at the current time. None by default.
    */
-  vtkSetStringMacro(Arrays);
-  vtkGetStringMacro(Arrays);
+  vtkSetStdStringFromCharMacro(Arrays);
+  vtkGetCharFromStdStringMacro(Arrays);
   ///@}
 
 protected:
-  vtkGranularPathAlgorithm();
-  ~vtkGranularPathAlgorithm() override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
+  vtkGranularPathAlgorithm() = default;
+  ~vtkGranularPathAlgorithm() override = default;
 
-  char* Ids = nullptr;
+  std::string Ids;
   vtkTypeInt64 EveryNth = 1;
   vtkTypeInt64 NumberOfSamples = 0;
   int Seed = 0;
@@ -114,12 +115,9 @@ protected:
   int SelectionFrame = -1;
   double TimeWindow[2] = { 1, -1 };
   int FrameStride = 1;
-  char* Arrays = nullptr;
+  std::string Arrays;
 
-  /**
-   * One request; filters have their own that derive from it.
-   */
-  class Follower;
+  class PathTask; ///< from which the tasks of the filters derive
 
 private:
   vtkGranularPathAlgorithm(const vtkGranularPathAlgorithm&) = delete;

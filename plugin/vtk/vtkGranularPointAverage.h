@@ -30,7 +30,10 @@ public:
   /**
    * Sets the data set: input port 3. Its points are where they are shown: the PointOrigin of the particles is added.
    */
-  void SetPointsConnection(vtkAlgorithmOutput* output);
+  void SetPointsConnection(vtkAlgorithmOutput* output)
+  {
+    this->SetInputConnection(POINTS_PORT, output);
+  }
 
   ///@{
   /**
@@ -42,8 +45,7 @@ public:
 
 protected:
   vtkGranularPointAverage();
-  ~vtkGranularPointAverage() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  ~vtkGranularPointAverage() override = default;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
@@ -57,7 +59,9 @@ private:
   vtkGranularPointAverage(const vtkGranularPointAverage&) = delete;
   void operator=(const vtkGranularPointAverage&) = delete;
 
-  class Averager;
+  class Task;
+
+  static constexpr int POINTS_PORT = 3;
 
   int Kernel = GAUSSIAN;
 };

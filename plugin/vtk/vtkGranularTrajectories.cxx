@@ -3,7 +3,7 @@
 
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_output.h"
-#include "private/paths/path_follower.h"
+#include "private/paths/path_task.h"
 
 #include "granular/paths/paths.h"
 
@@ -48,55 +48,45 @@ struct vtkGranularTrajectories::TailFrames
 };
 
 //------------------------------------------------------------------------------
-/**
- * Does one request. Collective.
- */
-class vtkGranularTrajectories::Drawer : public vtkGranularPathAlgorithm::Follower
+class vtkGranularTrajectories::Task : public FilterTask<vtkGranularTrajectories, PathTask>
 {
 public:
-  Drawer(
-    vtkGranularTrajectories* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
-    : Follower(self, inputs, outputs)
-    , Filter(self)
-    , Output(vtkPolyData::GetData(outputs))
-    , Info(outputs->GetInformationObject(0))
-  {
-  }
+  using FilterTask::FilterTask;
 
-  void Run()
+private:
+  void Execute() override
   {
     this->Choose();
-    if (this->Filter->Tail > 0)
+    if (this->Self->Tail > 0)
     {
       this->KeepTail();
     }
     this->Progress.set_part(0, 0.8);
-    std::vector<granular::PathFrame> frames = this->Filter->Tail > 0
+    std::vector<granular::PathFrame> frames = this->Self->Tail > 0
       ? this->LoadTail()
       : this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress);
     this->Progress.set_part(0.8, 1);
-    this->Paths = this->Join(std::move(frames), this->Filter->PeriodicLines == SPLIT);
+    this->Paths = this->Join(std::move(frames), this->Self->PeriodicLines == SPLIT);
     this->Lines = granular::draw_paths(this->Paths, this->Origin);
     this->ChooseLines();
     this->FillLines();
     this->FillPoints();
     this->FillHeader();
-    this->Tell();
   }
 
-private:
   /**
    * Leaves the last frame at or before the current time, and so many before it.
    */
   void KeepTail()
   {
     const std::vector<double> times = this->GetTimes();
-    const double time = this->Info->Has(Pipeline::UPDATE_TIME_STEP())
-      ? this->Info->Get(Pipeline::UPDATE_TIME_STEP())
+    vtkInformation* info = this->GetOutputInformation();
+    const double time = info->Has(Pipeline::UPDATE_TIME_STEP())
+      ? info->Get(Pipeline::UPDATE_TIME_STEP())
       : times.back();
     const auto next = std::upper_bound(times.begin(), times.end(), time);
     const auto end = std::max<std::ptrdiff_t>(next - times.begin(), 1);
-    const auto first = std::max<std::ptrdiff_t>(end - 1 - this->Filter->Tail, 0);
+    const auto first = std::max<std::ptrdiff_t>(end - 1 - this->Self->Tail, 0);
     this->Numbers.assign(this->Numbers.begin() + first, this->Numbers.begin() + end);
   }
 
@@ -105,9 +95,9 @@ private:
    */
   std::vector<granular::PathFrame> LoadTail()
   {
-    auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Filter->GetExecutive());
+    auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(this->Self->GetExecutive());
     const vtkMTimeType time = pipeline ? pipeline->GetPipelineMTime() : 0;
-    TailFrames& kept = *this->Filter->Kept;
+    TailFrames& kept = *this->Self->Kept;
     if (kept.Time != time || kept.Arrays != this->Request.arrays)
     {
       kept = { {}, this->Request.arrays, time };
@@ -142,8 +132,7 @@ private:
     {
       return;
     }
-    const auto [first, last] =
-      this->Wanted.RangeOf(static_cast<vtkTypeInt64>(this->Paths.ids.size()));
+    const auto [first, last] = this->RangeOf(static_cast<vtkTypeInt64>(this->Paths.ids.size()));
     const auto begin_of = [&](vtkTypeInt64 path)
     {
       return static_cast<std::size_t>(
@@ -292,7 +281,7 @@ private:
   void FillHeader()
   {
     const granular::FrameHeader& header = this->Paths.headers.back();
-    const bool inside = this->Filter->PeriodicLines == SPLIT;
+    const bool inside = this->Self->PeriodicLines == SPLIT;
     if (header.has_box)
     {
       vtkGranularPrivate::FillHeader(this->Output->GetFieldData(), header,
@@ -300,9 +289,7 @@ private:
     }
   }
 
-  vtkGranularTrajectories* Filter;
-  vtkPolyData* Output;
-  vtkInformation* Info;
+  vtkPolyData* const Output = this->GetOutput<vtkPolyData>();
   granular::Paths Paths;
   granular::PathLines Lines;
   std::size_t FirstLine = 0;
@@ -313,6 +300,7 @@ private:
 vtkGranularTrajectories::vtkGranularTrajectories()
   : Kept(std::make_unique<TailFrames>())
 {
+  this->SetPorts({ Input::Required }, { "vtkPolyData" });
 }
 
 //------------------------------------------------------------------------------
@@ -322,13 +310,6 @@ vtkGranularTrajectories::~vtkGranularTrajectories() = default;
 vtkPolyData* vtkGranularTrajectories::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularTrajectories::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -346,10 +327,10 @@ int vtkGranularTrajectories::RequestInformation(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularTrajectories::Execute(vtkInformation* vtkNotUsed(request),
-  vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkGranularTrajectories::Execute(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  Drawer(this, inputVector, outputVector).Run();
+  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

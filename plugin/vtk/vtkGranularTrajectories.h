@@ -72,7 +72,6 @@ public:
 protected:
   vtkGranularTrajectories();
   ~vtkGranularTrajectories() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
@@ -82,7 +81,7 @@ private:
   vtkGranularTrajectories(const vtkGranularTrajectories&) = delete;
   void operator=(const vtkGranularTrajectories&) = delete;
 
-  class Drawer;
+  class Task;
   struct TailFrames;
 
   int PeriodicLines = UNWRAPPED;

@@ -5,6 +5,7 @@
 #include "vtkPointSet.h"
 
 #include <cstddef>
+#include <string>
 
 namespace vtkGranularPrivate
 {
@@ -22,11 +23,11 @@ FoundContacts::FoundContacts(const std::array<vtkDataObject*, 2>& inputs, vtkDat
       wanted.Point = port == 1 && !vtkPointSet::SafeDownCast(inputs[port]); // where the wall is
       this->Contacts[port].emplace(inputs[port], touched[port], wanted, progress);
       this->Rows.push_back(this->Contacts[port]->GetRows());
-      granular::Notice notice;
-      notice.text = CompareTimesteps(grains.GetFieldData(), inputs[port]->GetFieldData());
-      if (!notice.text.empty())
+      const std::string text =
+        CompareTimesteps(grains.GetFieldData(), inputs[port]->GetFieldData());
+      if (!text.empty())
       {
-        notices.push_back(notice);
+        notices.push_back({ {}, text });
       }
     }
   }
@@ -36,13 +37,12 @@ FoundContacts::FoundContacts(const std::array<vtkDataObject*, 2>& inputs, vtkDat
   this->Ends.emplace(particles, this->Rows, "", options, ranks, executor, parts);
   if (forces && !this->Ends->have_forces())
   {
-    granular::Notice notice;
-    notice.text = "the contacts have neither an array 'force' nor 'force_normal': stress and "
-                  "pressure lack their part";
-    notices.push_back(notice);
+    notices.push_back({ {},
+      "the contacts have neither an array 'force' nor 'force_normal': stress and pressure lack "
+      "their part" });
   }
   const std::int64_t unplaced = this->Ends->unplaced();
-  this->Left = { this->Ends->missing() - unplaced, unplaced, this->Ends->broken() };
-  ranks.sum(this->Left);
+  this->LeftOut = { this->Ends->missing() - unplaced, unplaced, this->Ends->broken() };
+  ranks.sum(this->LeftOut);
 }
 }

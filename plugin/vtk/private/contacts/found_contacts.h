@@ -39,18 +39,16 @@ public:
   const granular::FoundEnds& GetEnds() const { return *this->Ends; }
 
   /**
-   * Returns the contacts of all ranks that name a particle which is not there: lines, and rows that nothing places, which are
-   * left out. The last are left out because a number is not finite.
+   * Returns the numbers of contacts of all ranks that name a particle which is not there: lines, and rows that nothing places,
+   * which are left out; then of those left out because a number is not finite.
    */
-  std::int64_t CountMissing() const { return this->Left[0]; }
-  std::int64_t CountUnplaced() const { return this->Left[1]; }
-  std::int64_t CountBroken() const { return this->Left[2]; }
+  const std::array<std::int64_t, 3>& CountLeftOut() const { return this->LeftOut; }
 
 private:
   std::array<std::optional<ContactInput>, 2> Contacts;
   std::vector<granular::ContactRows> Rows;
   std::optional<granular::FoundEnds> Ends;
-  std::array<std::int64_t, 3> Left = {};
+  std::array<std::int64_t, 3> LeftOut = {};
 };
 }
 

@@ -25,11 +25,6 @@ struct vtkGranularDecompositionAlgorithm::Internals
    */
   granular::ProcessGrid MakeGrid(vtkGranularDecompositionAlgorithm* self,
     const granular::Vector3& lo, const granular::Vector3& hi) const;
-
-  /**
-   * Returns the options that the properties define, for a number of threads of this rank.
-   */
-  vtkGranularPrivate::VoxelForm MakeForm(vtkGranularDecompositionAlgorithm* self);
 };
 
 #endif

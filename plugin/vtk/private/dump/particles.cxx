@@ -57,23 +57,4 @@ std::pair<granular::Vector3, granular::Vector3> Particles::FindBounds(
   }
   return { lo, hi };
 }
-
-bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks)
-{
-  return wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank();
-}
-
-bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communicator& ranks)
-{
-  std::int64_t all = IsOwn(wanted, ranks) ? 1 : 0;
-  ranks.sum({ &all, 1 });
-  const bool together = all == ranks.size();
-  if (all != 0 && !together && !mayDiffer)
-  {
-    throw granular::UnsupportedError(
-      "expected that all processes ask for their own piece, or none, got " + std::to_string(all) +
-      " of " + std::to_string(ranks.size()));
-  }
-  return together;
-}
 }

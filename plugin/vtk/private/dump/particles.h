@@ -3,7 +3,6 @@
 #define vtkGranularParticles_h
 
 #include "private/dump/dump_input.h"
-#include "private/request/piece_request.h"
 
 #include "granular/geometry/box.h"
 #include "granular/parallel/communicator.h"
@@ -44,17 +43,6 @@ public:
 private:
   std::optional<DumpInput> Input;
 };
-
-/**
- * Returns true if a rank requests its own part of the whole. Other parts are extracted from the whole.
- */
-bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks);
-
-/**
- * Returns true if each rank requests its own part of a whole, false if each requests all or is alone. Throws
- * UnsupportedError on a mixture, if it is not allowed. Collective.
- */
-bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communicator& ranks);
 }
 
 #endif

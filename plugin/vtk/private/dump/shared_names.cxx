@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/shared_names.h"
 
-#include "private/request/text_of.h"
-
 #include "granular/common/pass.h"
 #include "granular/common/words.h"
 #include "granular/parallel/gather.h"
@@ -63,10 +61,10 @@ std::vector<std::string> NamesIn(std::string list, const std::vector<std::string
 }
 
 std::vector<std::string> ShareNames(
-  const char* list, const granular::FrameView& particles, granular::Communicator& ranks)
+  const std::string& list, const granular::FrameView& particles, granular::Communicator& ranks)
 {
   const std::vector<KnownNames> all = granular::gather(
-    ranks, KnownNames{ particles.rows > 0, NamesIn(TextOf(list), NumericArrays(particles)) });
+    ranks, KnownNames{ particles.rows > 0, NamesIn(list, NumericArrays(particles)) });
   const auto best = std::ranges::find_if(all, &KnownNames::HasParticles);
   return best == all.end() ? all.back().Names : best->Names;
 }

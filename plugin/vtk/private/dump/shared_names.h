@@ -20,7 +20,7 @@ std::vector<std::string> NamesIn(std::string list, const std::vector<std::string
  * id of the first rank that has particles. Collective.
  */
 std::vector<std::string> ShareNames(
-  const char* list, const granular::FrameView& particles, granular::Communicator& ranks);
+  const std::string& list, const granular::FrameView& particles, granular::Communicator& ranks);
 }
 
 #endif

@@ -33,14 +33,12 @@ granular::Coordinates FormOf(
 }
 
 PathFrames::PathFrames(
-  vtkAlgorithm* consumer, bool together, granular::Communicator& ranks, int threads)
-  : Together(together)
+  vtkAlgorithm* consumer, granular::Communicator& group, granular::Communicator& ranks, int threads)
+  : Group(group)
   , Ranks(ranks)
   , Threads(threads)
 {
-  const InputFrames::Part part =
-    together ? InputFrames::Part{ ranks.rank(), ranks.size(), 0 } : InputFrames::Part{};
-  this->Input.emplace(consumer, part);
+  this->Input.emplace(consumer, InputFrames::Part{ group.rank(), group.size(), 0 });
   this->Times = this->Input->GetTimes();
   CheckTimes(this->Times, ranks);
   this->Reader = ReaderFrames::Find(consumer);
@@ -83,11 +81,10 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
       frame.arrays.push_back({ name });
     }
   }
-  const granular::Communicator& ranks = this->GetRanks();
   std::vector<std::size_t> own;
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    if (static_cast<int>(i % static_cast<std::size_t>(ranks.size())) == ranks.rank())
+    if (static_cast<int>(i % static_cast<std::size_t>(this->Group.size())) == this->Group.rank())
     {
       own.push_back(i);
     }
@@ -127,8 +124,8 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
   granular::DumpRequest base = this->Reader->Request;
   base.coordinates = FormOf(base, request);
   base.threads = this->Threads;
-  base.piece = this->GetRanks().rank();
-  base.pieces = this->GetRanks().size();
+  base.piece = this->Group.rank();
+  base.pieces = this->Group.size();
   return granular::do_together(this->Ranks,
     [&]
     {
@@ -145,12 +142,11 @@ granular::PathFrame PathFrames::Request(
   return granular::do_together(this->Ranks,
     [&]
     {
-      granular::Communicator& ranks = this->GetRanks();
-      const Particles particles(this->Input->GetData(), ranks);
+      const Particles particles(this->Input->GetData(), this->Group);
       const granular::FrameView& view = particles.View();
-      const std::vector<std::int64_t> rows = granular::gather(ranks, view.rows);
+      const std::vector<std::int64_t> rows = granular::gather(this->Group, view.rows);
       const std::int64_t first =
-        std::accumulate(rows.begin(), rows.begin() + ranks.rank(), std::int64_t{ 0 });
+        std::accumulate(rows.begin(), rows.begin() + this->Group.rank(), std::int64_t{ 0 });
       return granular::pick_particles(
         view, request, first, granular::Executor(this->Threads), progress);
     });

@@ -27,10 +27,11 @@ class PathFrames
 {
 public:
   /**
-   * together: the ranks load all frames together, each a part of the particles. Otherwise this rank loads them alone.
+   * group: those of the ranks that load all frames together, each a part of the particles: all, or this one alone.
    * Throws Error if the ranks have different times. Collective.
    */
-  PathFrames(vtkAlgorithm* consumer, bool together, granular::Communicator& ranks, int threads);
+  PathFrames(vtkAlgorithm* consumer, granular::Communicator& group, granular::Communicator& ranks,
+    int threads);
 
   /**
    * Returns the times of all frames; none if the input has no times, and then one frame.
@@ -38,11 +39,6 @@ public:
   const std::vector<double>& GetTimes() const { return this->Times; }
 
   std::size_t GetSize() const { return this->Times.empty() ? 1 : this->Times.size(); }
-
-  /**
-   * Returns the ranks that work together: this one alone, if they do not.
-   */
-  granular::Communicator& GetRanks() { return this->Together ? this->Ranks : this->Alone; }
 
   /**
    * Loads frames, several at a time if they are in files: each is whole on one rank, and empty on others. From a pipeline
@@ -70,9 +66,8 @@ private:
   granular::PathFrame Request(
     std::size_t number, const granular::PathRequest& request, granular::Progress& progress);
 
-  bool Together;
+  granular::Communicator& Group;
   granular::Communicator& Ranks;
-  granular::SerialCommunicator Alone;
   int Threads;
   std::optional<InputFrames> Input;
   std::optional<ReaderFrames> Reader;

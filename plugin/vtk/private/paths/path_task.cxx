@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "private/paths/path_follower.h"
+#include "private/paths/path_task.h"
 
 #include "private/dump/particles.h"
 #include "private/dump/shared_names.h"
-#include "private/request/processes.h"
-#include "private/request/ranks.h"
-#include "private/request/text_of.h"
 
 #include "granular/geometry/region.h"
 #include "granular/paths/id_selection.h"
-
-#include "vtkDataObject.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,24 +13,7 @@
 using namespace vtkGranularPrivate;
 
 //------------------------------------------------------------------------------
-vtkGranularPathAlgorithm::Follower::Follower(
-  vtkGranularPathAlgorithm* self, vtkInformationVector** inputs, vtkInformationVector* outputs)
-  : Self(self)
-  , Input(vtkDataObject::GetData(inputs[0]))
-  , Wanted(PieceRequest::Of(outputs->GetInformationObject(0)))
-  , Ranks(self->Ranks->Get())
-  , Own(self)
-  , Shared(this->Own, this->Ranks)
-  , Progress(this->Shared)
-  , Together(AreTogether(this->Wanted, false, this->Ranks))
-  , Threads(ChooseThreads(self->vtkGranularAlgorithm::Threads, this->Ranks))
-  , Frames(self, this->Together, this->Ranks, this->Threads)
-{
-  this->Progress.step(0);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::Follower::Choose()
+void vtkGranularPathAlgorithm::PathTask::Choose()
 {
   this->ReadInput();
   this->ChooseFrames();
@@ -48,9 +24,9 @@ void vtkGranularPathAlgorithm::Follower::Choose()
 /**
  * Reads what the shown frame tells: the origin of the points, and the names that "*" stands for.
  */
-void vtkGranularPathAlgorithm::Follower::ReadInput()
+void vtkGranularPathAlgorithm::PathTask::ReadInput()
 {
-  const Particles particles(this->Input, this->Ranks);
+  const Particles particles(this->GetInput(0), this->Ranks);
   const granular::FrameView& view = particles.View();
   if (view.coordinates != granular::Coordinates::Scaled)
   {
@@ -61,7 +37,7 @@ void vtkGranularPathAlgorithm::Follower::ReadInput()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::Follower::ChooseFrames()
+void vtkGranularPathAlgorithm::PathTask::ChooseFrames()
 {
   const std::vector<double>& times = this->Frames.GetTimes();
   const auto [first, last] = this->Self->TimeWindow;
@@ -84,10 +60,10 @@ void vtkGranularPathAlgorithm::Follower::ChooseFrames()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::Follower::ChooseParticles()
+void vtkGranularPathAlgorithm::PathTask::ChooseParticles()
 {
   granular::IdSelection& selection = this->Request.selection;
-  selection = granular::IdSelection(TextOf(this->Self->Ids));
+  selection = granular::IdSelection(this->Self->Ids);
   selection.keep_multiples(this->Self->EveryNth);
   const auto samples = static_cast<std::size_t>(this->Self->NumberOfSamples);
   const bool hasRegion = granular::restricts(this->Self->RegionOfInterest);
@@ -111,13 +87,13 @@ void vtkGranularPathAlgorithm::Follower::ChooseParticles()
     std::move(this->Frames.Load({ number }, request, this->Notices, this->Progress).front());
   const std::vector<std::int64_t> ids =
     hasRegion ? granular::ids_in_region(frame, this->Self->RegionOfInterest) : frame.ids;
-  granular::Communicator& ranks = this->Frames.GetRanks();
-  selection.keep_only(samples > 0 ? granular::sample_ids(ids, samples, this->Self->Seed, ranks)
-                                  : granular::share_ids(ids, ranks));
+  selection.keep_only(samples > 0
+      ? granular::sample_ids(ids, samples, this->Self->Seed, this->Group)
+      : granular::share_ids(ids, this->Group));
 }
 
 //------------------------------------------------------------------------------
-std::vector<double> vtkGranularPathAlgorithm::Follower::GetTimes()
+std::vector<double> vtkGranularPathAlgorithm::PathTask::GetTimes()
 {
   const std::vector<double>& all = this->Frames.GetTimes();
   std::vector<double> times;
@@ -129,7 +105,7 @@ std::vector<double> vtkGranularPathAlgorithm::Follower::GetTimes()
 }
 
 //------------------------------------------------------------------------------
-granular::Paths vtkGranularPathAlgorithm::Follower::Join(
+granular::Paths vtkGranularPathAlgorithm::PathTask::Join(
   std::vector<granular::PathFrame> frames, bool crossings)
 {
   granular::PathJoin join;
@@ -138,22 +114,5 @@ granular::Paths vtkGranularPathAlgorithm::Follower::Join(
   join.crossings = crossings;
   join.name_rows = [this](std::int64_t id, std::size_t frame)
   { this->Frames.NameRows(id, this->Numbers[frame]); };
-  return granular::join_frames(
-    std::move(frames), join, this->Frames.GetRanks(), this->Notices, this->Progress);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::Follower::Tell()
-{
-  std::vector<Processes::Remark> remarks;
-  for (const granular::Notice& notice : this->Notices)
-  {
-    // what is said of a file is known to the rank that read it alone
-    if (this->Ranks.rank() == 0 || !this->Together || !notice.where.path.empty())
-    {
-      const std::string text = granular::to_string(notice);
-      remarks.push_back({ notice.topic.empty() ? text : notice.topic, text });
-    }
-  }
-  this->Self->Ranks->Warn(this->Self, remarks);
+  return granular::join_frames(std::move(frames), join, this->Group, this->Notices, this->Progress);
 }
