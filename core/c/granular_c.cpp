@@ -101,9 +101,10 @@ extern "C"
         }
         const auto number = static_cast<std::size_t>(file);
         const granular::FileIndex& index = files[number];
-        const granular_run::Rest& rest = run->rests[number];
+        const granular_run::LeftOut& left_out = run->left_out[number];
         needed(facts, "facts") = { index.path.c_str(), index.stamp.size,
-          static_cast<std::int64_t>(index.frames.size()), rest.repeated, rest.defect.c_str() };
+          static_cast<std::int64_t>(index.frames.size()), left_out.repeated,
+          left_out.defect.c_str() };
       });
   }
 

@@ -169,17 +169,17 @@ void granular_run::refresh(Caller& caller)
   RunIndex updated = index; // after an error the run is as it was
   updated.update(find_files(patterns_), options_, notices, caller);
   std::vector<double> new_times = updated.times(timestep_size, notices);
-  std::vector<Rest> new_rests;
+  std::vector<LeftOut> new_left_out;
   for (const FileIndex& file : updated.files())
   {
-    new_rests.push_back({ file.defect ? to_string(*file.defect) : "", count_repeated(file) });
+    new_left_out.push_back({ file.defect ? to_string(*file.defect) : "", count_repeated(file) });
   }
   {
     const std::unique_lock lock(mutex);
     shared_index = std::make_shared<const RunIndex>(updated);
     index = std::move(updated);
     times = std::move(new_times);
-    rests = std::move(new_rests);
+    left_out = std::move(new_left_out);
     const std::lock_guard guard(offers_mutex_);
     offers_.clear();
   }

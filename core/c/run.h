@@ -100,13 +100,13 @@ struct granular_run
     std::make_shared<granular::BlockPool>(std::size_t{ 1 } << 28);
   std::vector<double> times;
 
-  /// Contents of a file beside the frames that are shown.
-  struct Rest
+  /// The frames of a file that are not shown.
+  struct LeftOut
   {
     std::string defect;        ///< of the first frame that was left out; empty: none
     std::int64_t repeated = 0; ///< frames with a timestep of an earlier one in the file
   };
-  std::vector<Rest> rests; ///< of each file
+  std::vector<LeftOut> left_out; ///< of each file
 
   // as they were given
   double timestep_size = 1;

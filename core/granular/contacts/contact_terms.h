@@ -60,8 +60,8 @@ struct ContactTerms
     const Vector3 branch = line ? ends.branch(row) : Vector3{};
     const Vector3 normal = fabric ? ContactEnds::normal(branch) : Vector3{};
     const Counted counted = { counts != 0 ? 1 : 0, counts != 0 && normal != Vector3{} ? 1 : 0 };
-    const Feel first = to[0] ? this->feel(ends, row, 0, line, branch) : Feel{};
-    const Feel second = to[1] ? this->feel(ends, row, 1, line, branch) : Feel{};
+    const EndLoad first = to[0] ? this->load_at(ends, row, 0, line, branch) : EndLoad{};
+    const EndLoad second = to[1] ? this->load_at(ends, row, 1, line, branch) : EndLoad{};
     if (to[0])
     {
       this->write(counted, counts, normal, first, *to[0]);
@@ -79,15 +79,15 @@ struct ContactTerms
   std::size_t count;
 
 private:
-  /// Effect of a contact on a particle.
-  struct Feel
+  /// The load of a contact on the particle at one end.
+  struct EndLoad
   {
     Vector3 force;
     Vector3 arm;
     Vector3 torque;
   };
 
-  Feel feel(const ContactEnds& ends, std::size_t row, std::size_t end, bool line,
+  EndLoad load_at(const ContactEnds& ends, std::size_t row, std::size_t end, bool line,
     const Vector3& branch) const noexcept
   {
     const Vector3 arm = line && (torque || stress) ? ends.arm(row, end, branch) : Vector3{};
@@ -95,18 +95,18 @@ private:
       line && torque ? ends.torque(row, end, branch, arm) : Vector3{} };
   }
 
-  void write(const Counted& counted, double counts, const Vector3& normal, const Feel& feel,
+  void write(const Counted& counted, double counts, const Vector3& normal, const EndLoad& load,
     EndTerms& to) const noexcept
   {
     double* next = to.terms.data();
     to.counted = counted;
     if (force)
     {
-      next = write(feel.force, next);
+      next = write(load.force, next);
     }
     if (torque)
     {
-      next = write(feel.torque, next);
+      next = write(load.torque, next);
     }
     if (fabric)
     {
@@ -115,7 +115,7 @@ private:
     }
     if (stress)
     {
-      write_products(feel.arm, feel.force, next);
+      write_products(load.arm, load.force, next);
     }
   }
 

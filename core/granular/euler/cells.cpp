@@ -34,12 +34,12 @@ constexpr std::pair<std::vector<double> EulerCells::*, std::size_t> packed_array
 };
 constexpr auto packed_size = static_cast<std::size_t>(values_of_cell);
 
-/// Facts that a rank tells the others of itself: numbers of cells and of values.
-using Told = std::array<std::int64_t, 2>;
+/// The numbers of cells and of values that a rank has.
+using ValueCounts = std::array<std::int64_t, 2>;
 
-std::vector<Told> tell_all(std::int64_t cells, std::size_t values, Communicator& ranks)
+std::vector<ValueCounts> gather_counts(std::int64_t cells, std::size_t values, Communicator& ranks)
 {
-  return gather(ranks, Told{ cells, static_cast<std::int64_t>(values) });
+  return gather(ranks, ValueCounts{ cells, static_cast<std::int64_t>(values) });
 }
 
 /// Values of all ranks one after the other, on rank 0.
@@ -127,10 +127,10 @@ std::vector<double> gather_packed(
   return do_together(ranks,
     [&]
     {
-      const std::vector<Told> told = tell_all(own_cells, own.size(), ranks);
-      for (std::size_t i = 0; i < told.size(); ++i)
+      const std::vector<ValueCounts> counts = gather_counts(own_cells, own.size(), ranks);
+      for (std::size_t i = 0; i < counts.size(); ++i)
       {
-        const auto [cells, values] = told[i];
+        const auto [cells, values] = counts[i];
         if (values % values_of_cell != 0 || values / values_of_cell != cells)
         {
           throw FormatError("expected 9 values for each of " + std::to_string(cells) +
@@ -156,10 +156,10 @@ EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
           continue;
         }
         const std::vector<double>& values = own.*array.values;
-        const std::vector<Told> told = tell_all(own.count(), values.size(), ranks);
+        const std::vector<ValueCounts> counts = gather_counts(own.count(), values.size(), ranks);
         // known where all who have cells know it
-        if (std::ranges::all_of(
-              told, [&](const Told& each) { return each[1] == array.components * each[0]; }))
+        if (std::ranges::all_of(counts,
+              [&](const ValueCounts& each) { return each[1] == array.components * each[0]; }))
         {
           all.*array.values = gather_values(values, ranks);
         }

@@ -2,7 +2,7 @@
 #include "granular/frames/run_index.h"
 
 #include "granular/common/hash.h"
-#include "granular/frames/file_series.h"
+#include "granular/frames/frame_order.h"
 #include "granular/frames/update_files.h"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ std::shared_ptr<FrameKinds> kinds_of(const std::vector<FileIndex>& files)
   return files.empty() ? std::make_shared<FrameKinds>() : files.front().kinds;
 }
 
-FramePiece piece_at(const std::vector<FileIndex>& files, const FileSeries::Place& place)
+FramePiece piece_at(const std::vector<FileIndex>& files, const FrameOrder::Place& place)
 {
   const FileIndex& file = files[place.file];
   return { file, file.frames[place.frame] };
@@ -115,20 +115,19 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   {
     throw Error("expected the format of the files in the options, got none");
   }
-  series_ = {};
+  order_ = {};
   std::vector<FileIndex> updated =
     this->update_files(distinct_dumps(files), options, std::move(of_ranks), notices, progress);
   Notices found;
-  looked_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
-  files_ = looked_;
-  if (options.format->complete && (!options.format->lacks || options.format->lacks(*looked_)))
+  scanned_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
+  files_ = scanned_;
+  if (options.format->complete && (!options.format->lacks || options.format->lacks(*scanned_)))
   {
-    updated = *looked_;
+    updated = *scanned_;
     options.format->complete(updated, found);
     files_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   }
-  series_ =
-    std::make_shared<const FileSeries>(order_frames(*files_, options.repeated_steps, found));
+  order_ = std::make_shared<const FrameOrder>(order_frames(*files_, options.repeated_steps, found));
   if (this->size() == 0)
   {
     this->fail(found);
@@ -141,7 +140,7 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
 std::vector<std::string> RunIndex::unknown_files(const std::vector<std::string>& files) const
 {
   std::set<std::string_view> known;
-  for (const FileIndex& file : *looked_)
+  for (const FileIndex& file : *scanned_)
   {
     known.insert(file.path);
   }
@@ -154,9 +153,9 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
   const IndexOptions& options, std::vector<FileIndex>&& of_ranks, Notices& notices,
   Progress& progress)
 {
-  std::vector<FileIndex> before = *looked_; // a copy: who copied this index has them, too
+  std::vector<FileIndex> before = *scanned_; // a copy: who copied this index has them, too
   // if this is left by an exception, what is known so far is gone and will be read anew
-  files_ = looked_ = std::make_shared<const std::vector<FileIndex>>();
+  files_ = scanned_ = std::make_shared<const std::vector<FileIndex>>();
   const std::shared_ptr<FrameKinds> kinds =
     of_ranks.empty() ? kinds_of(before) : of_ranks.front().kinds;
   std::map<std::string, FileIndex> known;
@@ -190,7 +189,7 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
 
 std::shared_ptr<FrameKinds> RunIndex::kinds() const
 {
-  return kinds_of(*looked_);
+  return kinds_of(*scanned_);
 }
 
 bool RunIndex::changed() const
@@ -200,18 +199,18 @@ bool RunIndex::changed() const
 
 std::size_t RunIndex::size() const noexcept
 {
-  return series_ ? series_->size() : 0;
+  return order_ ? order_->size() : 0;
 }
 
 FramePiece RunIndex::first_piece(std::size_t frame) const
 {
-  return piece_at(*files_, series_->pieces(frame).front());
+  return piece_at(*files_, order_->pieces(frame).front());
 }
 
 std::vector<FramePiece> RunIndex::pieces(std::size_t frame) const
 {
   std::vector<FramePiece> pieces;
-  for (const FileSeries::Place place : series_->pieces(frame))
+  for (const FrameOrder::Place place : order_->pieces(frame))
   {
     pieces.push_back(piece_at(*files_, place));
   }

@@ -17,7 +17,7 @@
 
 namespace granular
 {
-struct FileSeries;
+struct FrameOrder;
 
 /// Meaning of several frames with the same timestep in different files.
 ///
@@ -128,9 +128,9 @@ private:
   using Files = std::shared_ptr<const std::vector<FileIndex>>;
 
   Files files_ = std::make_shared<const std::vector<FileIndex>>(); ///< null only after a move
-  Files looked_ = files_; ///< as they were before FileFormat::complete: an update goes on from them
-  std::shared_ptr<const FileSeries> series_; ///< null: no frames
-  std::uint64_t shared_ = 0;                 ///< hash of the bytes that all ranks have, 0: none
+  Files scanned_ = files_; ///< files_ before FileFormat::complete: an update goes on from them
+  std::shared_ptr<const FrameOrder> order_; ///< null: no frames
+  std::uint64_t shared_ = 0;                ///< hash of the bytes that all ranks have, 0: none
 };
 
 /// Updates the index on rank 0, which alone has notices; then all ranks have the same index. If the format has large runs, files

@@ -3,7 +3,7 @@
 #include "granular/common/archive.h"
 #include "granular/common/hash.h"
 #include "granular/frames/file_index_archive.h"
-#include "granular/frames/file_series.h"
+#include "granular/frames/frame_order.h"
 #include "granular/frames/run_index.h"
 #include "granular/frames/update_files.h"
 #include "granular/parallel/executor.h"
@@ -97,7 +97,7 @@ std::string RunIndex::encode() const
 {
   ArchiveWriter out;
   out.text(encode_files(*files_));
-  write_series(out, series_ ? *series_ : FileSeries());
+  write_order(out, order_ ? *order_ : FrameOrder());
   return std::move(out.bytes);
 }
 
@@ -108,9 +108,9 @@ void RunIndex::decode(std::string_view bytes)
   std::string bytes_of_files;
   in.text(bytes_of_files);
   std::vector<FileIndex> files = decode_files(bytes_of_files, std::make_shared<FrameKinds>());
-  index.series_ = std::make_shared<const FileSeries>(read_series(in, files));
+  index.order_ = std::make_shared<const FrameOrder>(read_order(in, files));
   index.files_ = std::make_shared<const std::vector<FileIndex>>(std::move(files));
-  index.looked_ = index.files_;
+  index.scanned_ = index.files_;
   require(in.ended(), "the end of the index");
   *this = std::move(index);
 }
@@ -162,7 +162,7 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
   }
   catch (...)
   {
-    index.series_ = {};
+    index.order_ = {};
     index.shared_ = 0;
     throw;
   }

@@ -62,18 +62,18 @@ ArrayView view_array(const FrameView& frame, const std::string& name)
   return array ? *array : ArrayView{ name };
 }
 
-/// Facts that a rank tells of itself: whether it has rows, and the sizes of the arrays.
-using Told = std::vector<int>;
+/// 1 if a rank has rows, else 0; then the sizes of its arrays.
+using ArraySizes = std::vector<int>;
 
 /// Returns the size that the ranks with rows have, which must agree; if none has any, that of the first that knows it.
-int size_among(const std::vector<Told>& all, std::size_t place, const std::string& name)
+int size_among(const std::vector<ArraySizes>& all, std::size_t place, const std::string& name)
 {
   int size = 0;
   bool counted = false; // on a rank with rows
-  for (const Told& told : all)
+  for (const ArraySizes& sizes : all)
   {
-    const int here = told[place];
-    const bool counts = told[0] != 0;
+    const int here = sizes[place];
+    const bool counts = sizes[0] != 0;
     if (counts && counted && here != size)
     {
       throw Error("expected as many numbers a particle in array '" + name +
@@ -120,9 +120,9 @@ ParticleValues view_particles(const FrameView& frame, std::span<const std::strin
 
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks)
 {
-  Told own = { rows > 0 ? 1 : 0 };
+  ArraySizes own = { rows > 0 ? 1 : 0 };
   std::ranges::transform(particles.arrays, std::back_inserter(own), &ArrayView::size);
-  const std::vector<Told> all = gather(ranks, own);
+  const std::vector<ArraySizes> all = gather(ranks, own);
   for (std::size_t i = 0; i < particles.arrays.size(); ++i)
   {
     ArrayView& array = particles.arrays[i];

@@ -76,16 +76,16 @@ void Processes::BeginUpdate(vtkAlgorithm* self)
   {
     this->Cancelled = false;
     this->Refused = false;
-    const bool same = this->ToldTime == self->GetMTime();
+    const bool same = this->ErrorTime == self->GetMTime();
     self->Modified();
-    this->ToldTime = same ? self->GetMTime() : this->ToldTime;
+    this->ErrorTime = same ? self->GetMTime() : this->ErrorTime;
   }
 }
 
 void Processes::Forget(vtkAlgorithm* self)
 {
   this->Message.clear();
-  this->Told.clear();
+  this->LastError.clear();
   SetErrorCode(self, vtkErrorCode::NoError);
 }
 
@@ -98,11 +98,11 @@ Outcome Processes::Fail(vtkAlgorithm* self, const Failure& failure)
     return failure.End;
   }
   this->Quiet(self->GetExecutive());
-  if (this->Told != failure.Text || this->ToldTime != self->GetMTime())
+  if (this->LastError != failure.Text || this->ErrorTime != self->GetMTime())
   {
     vtkErrorWithObjectMacro(self, << failure.Text);
-    this->Told = failure.Text;
-    this->ToldTime = self->GetMTime();
+    this->LastError = failure.Text;
+    this->ErrorTime = self->GetMTime();
   }
   SetErrorCode(self, failure.Code);
   return failure.End;
@@ -126,7 +126,7 @@ int Processes::EndRequest(vtkAlgorithm* self, Outcome outcome)
     // who asked to stop, while another rank failed, has had the answer
     self->SetAbortExecute(0);
     MarkStopped(self, false);
-    this->ToldTime = self->GetMTime(); // what was cleaned up after the failure is no change
+    this->ErrorTime = self->GetMTime(); // what was cleaned up after the failure is no change
   }
   return !failed;
 }

@@ -104,8 +104,8 @@ private:
   bool Cancelled = false;
   bool Refused = false; ///< the last request failed, but may succeed if it is made again
   std::string Message;
-  std::string Told;          ///< the last error that was told
-  vtkMTimeType ToldTime = 0; ///< MTime of the algorithm then
+  std::string LastError;      ///< that was reported
+  vtkMTimeType ErrorTime = 0; ///< MTime of the algorithm then
   vtkSmartPointer<vtkCallbackCommand> Quieter;
   std::set<std::string> Warned; ///< topics of the last request
   vtkMTimeType WarnedTime = 0;  ///< of the pipeline then

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_frames_file_series_h
-#define granular_frames_file_series_h
+#ifndef granular_frames_frame_order_h
+#define granular_frames_frame_order_h
 
 #include "granular/common/archive.h"
 #include "granular/common/error.h"
@@ -15,7 +15,7 @@ namespace granular
 {
 /// The frames of a run, ordered by timestep, and the places of their pieces: the part of a RunIndex that distinguishes
 /// runs.
-struct FileSeries
+struct FrameOrder
 {
   struct Place
   {
@@ -36,11 +36,11 @@ struct FileSeries
 };
 
 /// Returns the frames of the files in order; see RepeatedSteps for frames that are left out with a notice.
-FileSeries order_frames(
+FrameOrder order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
 
-/// Writes the series to bytes, and reads it back; files must be the same files as before. Throws FormatError.
-void write_series(ArchiveWriter& out, const FileSeries& series);
-FileSeries read_series(ArchiveReader& in, const std::vector<FileIndex>& files);
+/// Writes the order to bytes, and reads it back; files must be the same files as before. Throws FormatError.
+void write_order(ArchiveWriter& out, const FrameOrder& order);
+FrameOrder read_order(ArchiveReader& in, const std::vector<FileIndex>& files);
 }
 #endif

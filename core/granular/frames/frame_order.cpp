@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/frames/file_series.h"
+#include "granular/frames/frame_order.h"
 
 #include "granular/common/shown_path.h"
 #include "granular/frames/piece_sets.h"
@@ -14,7 +14,7 @@ namespace granular
 {
 namespace
 {
-using Place = FileSeries::Place;
+using Place = FrameOrder::Place;
 
 /// Puts the frames of all files into their order.
 class Collector
@@ -22,7 +22,7 @@ class Collector
 public:
   Collector(const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
 
-  FileSeries run();
+  FrameOrder run();
 
 private:
   static constexpr std::uint32_t alone = std::numeric_limits<std::uint32_t>::max();
@@ -43,7 +43,7 @@ private:
   const std::vector<FileIndex>& files_;
   RepeatedSteps repeated_;
   Notices& notices_;
-  FileSeries series_;
+  FrameOrder result_;
   std::vector<PieceSet> sets_;
   std::vector<std::uint32_t> set_of_; ///< of each file: index into sets_, or alone
   std::vector<std::uint32_t> order_;  ///< of each file in its set
@@ -80,7 +80,7 @@ Collector::Collector(const std::vector<FileIndex>& files, RepeatedSteps repeated
   }
 }
 
-FileSeries Collector::run()
+FrameOrder Collector::run()
 {
   const std::vector<Place> sorted = this->list_frames();
   if (repeated_ == RepeatedSteps::Merge)
@@ -105,9 +105,9 @@ FileSeries Collector::run()
         " more, got a part; they are left out until all are there" });
   }
   this->note_hidden_files();
-  series_.places.shrink_to_fit();
-  series_.starts.shrink_to_fit();
-  return std::move(series_);
+  result_.places.shrink_to_fit();
+  result_.starts.shrink_to_fit();
+  return std::move(result_);
 }
 
 /// All frames by timestep; of the same timestep in the order of the files.
@@ -170,8 +170,8 @@ void Collector::take(std::span<const Place> repeated)
     if (text.empty())
     {
       this->say_what_waits();
-      series_.places.insert(series_.places.end(), pieces.begin(), pieces.end());
-      series_.starts.push_back(static_cast<std::uint32_t>(series_.places.size()));
+      result_.places.insert(result_.places.end(), pieces.begin(), pieces.end());
+      result_.starts.push_back(static_cast<std::uint32_t>(result_.places.size()));
       return;
     }
     wrong = wrong.empty() ? text : wrong;
@@ -271,12 +271,12 @@ void Collector::note_hidden_files()
     const std::size_t others = hidden.size() - 1;
     const std::int64_t first = hidden.front()->frames.front().timestep;
     const auto instead = std::ranges::find_if(
-      series_.places, [&](const Place& place) { return this->step(place) == first; });
+      result_.places, [&](const Place& place) { return this->step(place) == first; });
     notices_.push_back({ { hidden.front()->path },
       "no frame of this file" +
         (others > 0 ? ", and of " + std::to_string(others) + " more," : std::string()) +
         " is shown: later files have the same timesteps" +
-        (instead == series_.places.end() ? ""
+        (instead == result_.places.end() ? ""
                                          : ", such as " + shown_path(files_[instead->file].path)) +
         "; leave out files of other runs, or, if these are pieces of one run, set RepeatedSteps to "
         "Merge" });
@@ -284,34 +284,34 @@ void Collector::note_hidden_files()
 }
 }
 
-FileSeries order_frames(
+FrameOrder order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices)
 {
   return Collector(files, repeated, notices).run();
 }
 
-void write_series(ArchiveWriter& out, const FileSeries& series)
+void write_order(ArchiveWriter& out, const FrameOrder& order)
 {
-  out.list(series.places, [&](const Place& place) { out.number(place); });
-  out.list(series.starts, [&](std::uint32_t start) { out.number(start); });
+  out.list(order.places, [&](const Place& place) { out.number(place); });
+  out.list(order.starts, [&](std::uint32_t start) { out.number(start); });
 }
 
-FileSeries read_series(ArchiveReader& in, const std::vector<FileIndex>& files)
+FrameOrder read_order(ArchiveReader& in, const std::vector<FileIndex>& files)
 {
-  FileSeries series;
-  in.list(series.places,
+  FrameOrder order;
+  in.list(order.places,
     [&](Place& place)
     {
       in.number(place);
       require(place.file < files.size() && place.frame < files[place.file].frames.size(),
         "a frame that is there");
     });
-  in.list(series.starts, [&](std::uint32_t& start) { in.number(start); });
-  const auto& starts = series.starts;
+  in.list(order.starts, [&](std::uint32_t& start) { in.number(start); });
+  const auto& starts = order.starts;
   const auto not_before = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
-  require(!starts.empty() && starts.front() == 0 && starts.back() == series.places.size() &&
+  require(!starts.empty() && starts.front() == 0 && starts.back() == order.places.size() &&
       std::ranges::adjacent_find(starts, not_before) == starts.end(),
     "a piece for each frame");
-  return series;
+  return order;
 }
 }
