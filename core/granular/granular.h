@@ -23,8 +23,6 @@
 #include "granular/data_file/read_data.h"
 
 // ---- contacts and bonds -------------------------------------------------------------------------
-#include "granular/bonds/exchange_packing.h"
-#include "granular/bonds/restart_record.h"
 #include "granular/local/join.h"
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"

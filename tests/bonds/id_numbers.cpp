@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/bonds/id_numbers.h"
+#include "id_numbers.h"
 
 #include <gtest/gtest.h>
 

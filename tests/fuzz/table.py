@@ -22,7 +22,7 @@ READING = (
     ("restart", r"granular/restart/", None),
     ("data_file", r"granular/data_file/", None),
     ("vtk_files", r"granular/vtk_files/", None),
-    ("bonds", r"granular/bonds/", "bonded_particles"),
+    ("bonds", r"bonds/", "particles"),
     ("c", r"c/", "writer|granular_c_writing"),
 )
 

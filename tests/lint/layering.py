@@ -4,7 +4,7 @@
     core/granular/ROOM     its own folder, the rooms that ROOMS says, the C++ standard library; the
                            system only where SYSTEM_HEADERS says so; no more files than MOST_FILES
     core/granular/mpi      the same, and mpi.h; no other room may include it
-    core/c                 its own folder, granular/ but for mpi, the C++ standard library; granular.h: C's alone
+    core/c, core/bonds     its own folder, granular/ but for mpi, the C++ standard library; granular.h and granular_bonds.h: C's alone
     core/granular/granular.h  any header of any room but mpi
     plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/,
@@ -66,14 +66,13 @@ ROOMS = {room: words.split() for room, words in (
                   "dump/formats"),
     ("dump/write", "common numbers bytes geometry parallel frames particles sorting"),
     ("packing", "common memory geometry parallel particles"),
-    ("bonds", "common numbers geometry"),
     ("decomposition", "common numbers bytes memory geometry parallel vtk_files frames particles"),
     ("grid", "common numbers geometry particles"),
     ("kernels", "common numbers geometry grid"),
     ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles sorting grid kernels"),
     ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
               "dump/read"),
-    ("restart", "common numbers bytes memory geometry parallel frames particles bonds local"),
+    ("restart", "common numbers bytes memory geometry parallel frames particles local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
     ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),
@@ -95,6 +94,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("writing", "request dump"),
 )}
 
+C_HEADERS = ("core/c/granular.h", "core/bonds/granular_bonds.h")
 SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")
 LATER_MODULES = ("granular", "numpy", "pandas", "vtkmodules")
 
@@ -155,13 +155,14 @@ def check_core(root, path):
 
 
 def check_c(root, path):
-    """The C interface stands on the core."""
+    """The C interfaces stand on the core."""
+    folder = os.path.dirname(path)
     for line, bracket, name, _ in includes(tree.read(root, path)):
-        allowed = {"stddef.h", "stdint.h"} if path == "core/c/granular.h" else STANDARD
-        own = bracket == '"' and os.path.exists(os.path.join(root, "core/c", name))
+        allowed = {"stddef.h", "stdint.h"} if path in C_HEADERS else STANDARD
+        own = bracket == '"' and os.path.exists(os.path.join(root, folder, name))
         if not (own or (bracket == "<" and name in allowed) or
                 (name.startswith("granular/") and not name.startswith("granular/mpi/"))):
-            yield path, line, f"{name}: core/c stands on its own folder, granular/ and the standard library"
+            yield path, line, f"{name}: {folder} stands on its own folder, granular/ and the standard library"
 
 
 def check_vtk_header(root, path):
@@ -257,7 +258,7 @@ def check(root):
     for path in tree.files(root):
         if re.match(r"core/(granular|mpi)/.*\.(h|cpp|inc)$", path):
             yield from check_core(root, path)
-        elif re.match(r"core/c/.*\.(h|cpp)$", path):
+        elif re.match(r"core/(c|bonds)/.*\.(h|cpp)$", path):
             yield from check_c(root, path)
         elif re.match(r"plugin/vtk/[^/]+\.h$", path):
             yield from check_vtk_header(root, path)

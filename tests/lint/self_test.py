@@ -143,9 +143,12 @@ class Layering(unittest.TestCase):
             '#include "granular/dump/write/w.h"\n#include "r.h"\n',
             core__granular__dump__d_dot_cpp='#include "granular/common/c.h"\n',
             core__granular__euler__e_dot_cpp='#include "granular/frames/f.h"\n#include <mpi.h>\n',
-            core__granular__restart__r_dot_cpp='#include "granular/bonds/b.h"\n',
+            core__granular__restart__r_dot_cpp='#include "granular/local/b.h"\n',
+            core__bonds__b_dot_cpp='#include "granular/restart/r.h"\n#include "granular/mpi/m.h"\n',
+            core__bonds__granular_bonds_dot_h="#include <stdint.h>\n#include <vector>\n",
             core__granular__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/bytes/b.h"\n'
             '#include "granular/frames/d.h"\n'), [
+                "core/bonds/b.cpp:2", "core/bonds/granular_bonds.h:2",
                 "core/granular/bytes/a.h:3", "core/granular/bytes/a.h:5", "core/granular/bytes/a.h:6",
                 "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_zstd.cpp:2",
                 "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/compression.cpp:2",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """symbols.py nm library...: no library shows a symbol of the core, which is linked into it and whose
-layout is nobody else's business. The C library shows the functions that its header declares, and nothing else."""
+layout is nobody else's business. The C libraries show the functions that their headers declare, and nothing else."""
 import os
 import re
 import subprocess
@@ -14,11 +14,13 @@ def visible(nm, library):
     return [line.split(None, 2)[-1] for line in listing.splitlines()]
 
 
-def declared():
-    """The functions of the C interface."""
-    header = os.path.join(os.path.dirname(__file__), "..", "..", "core", "c", "granular.h")
-    with open(header, encoding="ascii") as stream:
-        return set(re.findall(r"^GRANULAR_API[^;(]*?(\w+)\(", stream.read(), re.MULTILINE))
+HEADERS = {"libgranular.so": "c/granular.h", "libgranular_bonds.so": "bonds/granular_bonds.h"}
+
+
+def declared(header):
+    """The functions of a C interface."""
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", "core", header), encoding="ascii") as stream:
+        return set(re.findall(r"^GRANULAR_(?:BONDS_)?API[^;(]*?(\w+)\(", stream.read(), re.MULTILINE))
 
 
 def main():
@@ -29,10 +31,11 @@ def main():
         names = visible(sys.argv[1], library)
         if not names:
             sys.exit(f"{library}: shows nothing at all")
-        if os.path.basename(library).startswith("libgranular.so"):
+        header = HEADERS.get(os.path.basename(library).partition(".so")[0] + ".so")
+        if header:
             functions = {name.split("@")[0] for name in names if not name.startswith("GRANULAR_")}  # versions
-            if functions != declared():
-                print(f"{os.path.basename(library)}:1: shows {sorted(functions ^ declared())}, or lacks them")
+            if functions != declared(header):
+                print(f"{os.path.basename(library)}:1: shows {sorted(functions ^ declared(header))}, or lacks them")
                 shown += 1
         for name in names:
             if "granular::" in name:

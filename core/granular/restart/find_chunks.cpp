@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/find_chunks.h"
 
-#include "granular/bonds/bond_record.h"
+#include "granular/restart/bond_record.h"
 #include "granular/restart/record_walker.h"
 #include "granular/restart/restart_bytes.h"
 

@@ -2,7 +2,7 @@
 #ifndef granular_restart_record_places_h
 #define granular_restart_record_places_h
 
-#include "granular/bonds/bond_record.h"
+#include "granular/restart/bond_record.h"
 
 #include <bit>
 #include <cstddef>

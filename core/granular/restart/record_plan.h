@@ -2,10 +2,10 @@
 #ifndef granular_restart_record_plan_h
 #define granular_restart_record_plan_h
 
-#include "granular/bonds/bond_record.h"
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
+#include "granular/restart/bond_record.h"
 #include "granular/restart/restart_layout.h"
 #include "granular/restart/restart_styles.h"
 

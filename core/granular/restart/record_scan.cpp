@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/record_scan.h"
 
-#include "granular/bonds/bond_record.h"
 #include "granular/numbers/number_print.h"
+#include "granular/restart/bond_record.h"
 #include "granular/restart/restart_bytes.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #ifndef granular_restart_restart_styles_h
 #define granular_restart_restart_styles_h
 
-#include "granular/bonds/bond_record.h"
+#include "granular/restart/bond_record.h"
 
 #include <array>
 #include <cstddef>

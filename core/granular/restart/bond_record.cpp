@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/bonds/bond_record.h"
+#include "granular/restart/bond_record.h"
 
 #include "granular/numbers/number_print.h"
 

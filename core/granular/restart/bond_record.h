@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_bonds_bond_record_h
-#define granular_bonds_bond_record_h
+#ifndef granular_restart_bond_record_h
+#define granular_restart_bond_record_h
 
 #include "granular/common/error.h"
 
