@@ -205,6 +205,14 @@ CONTACTS = Part("contacts", "Sums of contacts on particles",
      [Target(r"^all|shuffled$", "time against plain:1", "<=", 3)], wants_cores=2)
 
 
+BONDS = Part("bonds", "Bonded particles in messages",
+     """granular_bonds.h: rows one after the other are packed, and unpacked into new rows, whose fields that are not sent become 0;
+     memcpy copies as many doubles. exchange: two bonds of twelve history values a particle. One thread, time on the processor.""",
+     [cases_by_metrics(r"", *columns(".1f", "memcpy:ns/particle", "pack:ns/particle"),
+                       Column("against memcpy", "pack against memcpy:1", ".1f"), *columns(".1f", "unpack:ns/particle"),
+                       Column("against memcpy", "unpack against memcpy:1", ".1f"))])
+
+
 # ---- the parts -----------------------------------------------------------------------------------
 PARTS = (
     Part("decode", "Decode: text to columns in memory",

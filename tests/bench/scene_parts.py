@@ -3,7 +3,7 @@
 import math
 import re
 
-from parts import CONTACTS, EULER, KERNELS
+from parts import BONDS, CONTACTS, EULER, KERNELS
 from tables import Column, Part, Target, cases_by_metrics, columns, markdown, scientific, span, verdict
 
 PLACES = ("0", "1e3", "1e6")
@@ -574,6 +574,7 @@ SCENE_PARTS = (
     EULER,
     KERNELS,
     CONTACTS,
+    BONDS,
     Part("average", "Averages over frames",
          """20,000 equal spheres at random that do not overlap, in a periodic box; 5 to 312 in each cell. Moving: in each frame
          at other places. At rest: at the same places in all frames. The expected volume fraction is 0.3. The velocity is a
