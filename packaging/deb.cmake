@@ -3,6 +3,7 @@
 # component of the install rules:
 #
 #   c                libgranular0               the C library
+#   bonds            libgranular-bonds0         bonded particles for simulation codes
 #   python           python3-granular           the Python package, which needs numpy alone
 #   command          granular                   the command
 #   plugin           granular-paraview          the ParaView plugin, loaded by ParaView's programs when they start
@@ -71,9 +72,11 @@ execute_process(COMMAND gzip -9nc "${PROJECT_BINARY_DIR}/packaging/changelog"
   OUTPUT_FILE "${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND gzip -9nc "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
   OUTPUT_FILE "${PROJECT_BINARY_DIR}/packaging/changelog.gz" COMMAND_ERROR_IS_FATAL ANY)
-set(granular_components c python command plugin paraview_python dev)
+set(granular_components c bonds python command plugin paraview_python dev)
+set(granular_libraries libgranular libgranular_bonds)
 set(granular_packages
-  libgranular${PROJECT_VERSION_MAJOR} python3-granular granular granular-paraview python3-granular-paraview libgranular-dev)
+  libgranular${PROJECT_VERSION_MAJOR} libgranular-bonds${PROJECT_VERSION_MAJOR} python3-granular granular granular-paraview
+  python3-granular-paraview libgranular-dev)
 foreach(component package IN ZIP_LISTS granular_components granular_packages)
   install(FILES
     "${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz"
@@ -107,18 +110,27 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE "${granular_release}")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SOURCE granular)
 
-set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_C_PACKAGE_SHLIBDEPS ON)
-# What programs that are linked to it depend on, and when ldconfig runs.
-file(WRITE "${PROJECT_BINARY_DIR}/packaging/shlibs"
-  "libgranular ${PROJECT_VERSION_MAJOR} libgranular${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
+# What programs that are linked to a library depend on, and when ldconfig runs.
 file(WRITE "${PROJECT_BINARY_DIR}/packaging/triggers" "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA
-  "${PROJECT_BINARY_DIR}/packaging/shlibs" "${PROJECT_BINARY_DIR}/packaging/triggers")
+foreach(component library package IN ZIP_LISTS granular_components granular_libraries granular_packages)
+  if(library)
+    file(WRITE "${PROJECT_BINARY_DIR}/packaging/${component}/shlibs"
+      "${library} ${PROJECT_VERSION_MAJOR} ${package} (>= ${PROJECT_VERSION})\n")
+    string(TOUPPER "${component}" name)
+    set(CPACK_DEBIAN_${name}_PACKAGE_SECTION libs)
+    set(CPACK_DEBIAN_${name}_PACKAGE_SHLIBDEPS ON)
+    set(CPACK_DEBIAN_${name}_PACKAGE_CONTROL_EXTRA
+      "${PROJECT_BINARY_DIR}/packaging/${component}/shlibs" "${PROJECT_BINARY_DIR}/packaging/triggers")
+  endif()
+endforeach()
 set(CPACK_DEBIAN_C_DESCRIPTION "files of discrete-element simulations as arrays (library)
 Reads and writes the files of LIGGGHTS and LAMMPS by functions for C,
 C++ and Fortran: dumps of particles, contacts, bonds, subdomains and Euler
 cells, restart and data files.")
+set(CPACK_DEBIAN_BONDS_DESCRIPTION "bonded particles of discrete-element simulations (library)
+Stores bonded particles as the atom style bond/gran of LIGGGHTS' forks, and
+packs them for other ranks and for restart files, by functions for C, C++ and
+Fortran.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
@@ -170,16 +182,18 @@ The compiled part of the package granular: readers, writers and filters for
 the files of LIGGGHTS and LAMMPS as VTK classes.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgranular${PROJECT_VERSION_MAJOR} (= ${granular_version}), libzstd-dev, zlib1g-dev")
+string(JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+  "libgranular${PROJECT_VERSION_MAJOR} (= ${granular_version})" "libgranular-bonds${PROJECT_VERSION_MAJOR} (= ${granular_version})"
+  "libzstd-dev" "zlib1g-dev")
 if(GRANULAR_ISAL AND GRANULAR_ISAL_LIBRARY)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libisal-dev")
 endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libopenmpi-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "discrete-element data for programs (development files)
-The headers of libgranular, for C, C++ and Fortran, and the core of
+The headers of libgranular and libgranular_bonds, for C, C++ and Fortran, and the core of
 vtk-granular, a static C++ library without VTK: reads and writes the files of
 LIGGGHTS and LAMMPS, on one process or, with MPI, on many.
 
-CMake's find_package(Granular) finds both, pkg-config the first.")
+CMake's find_package(Granular) finds all, pkg-config the libraries for C.")
 
 include(CPack)
