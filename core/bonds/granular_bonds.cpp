@@ -107,7 +107,11 @@ granular_bonds_status granular_bonds_create(
   int32_t most_bonds, int32_t history_values, granular_bonds** particles)
 {
   return guarded(
-    [&] { needed(particles, "particles") = new granular_bonds(most_bonds, history_values); });
+    [&]
+    {
+      granular_bonds*& made = needed(particles, "particles");
+      made = new granular_bonds(most_bonds, history_values);
+    });
 }
 
 void granular_bonds_destroy(granular_bonds* particles)

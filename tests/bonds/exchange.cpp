@@ -35,7 +35,7 @@ Object two()
   return particles;
 }
 
-/// What is said of a buffer; the object must then be as it was. Empty: it was unpacked.
+/// Returns the error of a buffer, after which the object must be as it was. Empty: it was unpacked.
 std::string text_of(
   const Numbers& buffer, int dialect, granular_bonds_status expected, std::int32_t most_bonds = 2)
 {

@@ -8,7 +8,7 @@ using namespace bonds;
 
 namespace
 {
-/// What the programs send, by hand: x v f, X and V of the molecule, id, type, mask, molecule.
+/// The fields that the programs send, by hand: x v f, X and V of the molecule, id, type, mask, molecule.
 struct Order
 {
   int kind;

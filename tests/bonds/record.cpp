@@ -26,7 +26,7 @@ Object one(std::int32_t history_values)
   return particles;
 }
 
-/// Of 10 bits: 513 + 0 x 2^10 + 1 x 2^20.
+/// The image has 10 bits a count: 513 + 0 x 2^10 + 1 x 2^20.
 const Numbers by_hand = { 22, 1, 2, 3, 21, 5, 23, 1049089, 4, 5, 6, 24, 2, -1, 22, 2, 20, 2, 0.5,
   0.5, 0.5, 0.5 };
 
@@ -49,7 +49,7 @@ granular_bonds_status read(const Object& particles, const Numbers& chunk, std::s
     particles.get(), nullptr, fixes, chunk.data(), chunk.size(), nullptr);
 }
 
-/// What is said of a record; the object must then be as it was. Empty: it was read.
+/// Returns the error of a record, after which the object must be as it was. Empty: it was read.
 std::string reading(const Numbers& record, std::size_t fixes = 0)
 {
   const Object particles = make(1, 2, 2, 1);
