@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonded particles into messages for other ranks and out of them, against memcpy of as many bytes, in turns.
-#include "bench.h"
-
+// Bonded particles into messages for other ranks and out of them, against memcpy of as many doubles.
 #include "granular_bonds.h"
 
-#include <algorithm>
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
 #include <cstring>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
-namespace bench
-{
 namespace
 {
 using Particles = std::unique_ptr<granular_bonds, decltype(&granular_bonds_destroy)>;
@@ -38,66 +39,66 @@ Particles make_chain(std::size_t count, bool bonds)
   return { made, granular_bonds_destroy };
 }
 
-/// Rows one after the other are packed, and unpacked into new rows, of which the memory has been used before.
-void measure(benchmark::State& state, int kind, std::size_t count)
+/// Rows one after the other are packed, unpacked into new rows, of which the memory has been used before, or copied.
+void measure(benchmark::State& state, int kind, const std::string& way)
 {
-  const bool exchange = kind == GRANULAR_BONDS_EXCHANGE;
-  const Particles particles = make_chain(count, exchange);
-  const Particles others = make_chain(count, exchange);
+  const auto count = static_cast<std::size_t>(state.range(0));
+  const Particles particles = make_chain(count, kind == GRANULAR_BONDS_EXCHANGE);
+  const Particles others = make_chain(count, kind == GRANULAR_BONDS_EXCHANGE);
   std::size_t doubles = 0;
   granular_bonds_pack(particles.get(), kind, 0, count, nullptr, nullptr, nullptr, 0, &doubles);
-  std::vector<double> buffer(doubles), copy(doubles);
-  Rounds rounds;
-  rounds.add("pack",
-    [&]
-    {
-      return granular_bonds_pack(particles.get(), kind, 0, count, nullptr, nullptr, buffer.data(),
-               doubles, &doubles) == GRANULAR_BONDS_OK;
-    });
-  rounds.add("unpack",
-    [&]
-    {
-      std::size_t unpacked = 0;
-      granular_bonds_resize(others.get(), 0);
-      granular_bonds_unpack(
-        others.get(), kind, 0, nullptr, buffer.data(), buffer.size(), &unpacked);
-      return unpacked == count;
-    });
-  rounds.add("memcpy",
-    [&]
+  std::vector<double> buffer(doubles);
+  std::vector<double> copy(doubles);
+  const auto pack = [&]
+  {
+    return granular_bonds_pack(particles.get(), kind, 0, count, nullptr, nullptr, buffer.data(),
+             doubles, &doubles) == GRANULAR_BONDS_OK;
+  };
+  const auto unpack = [&]
+  {
+    std::size_t unpacked = 0;
+    granular_bonds_resize(others.get(), 0);
+    granular_bonds_unpack(others.get(), kind, 0, nullptr, buffer.data(), buffer.size(), &unpacked);
+    return unpacked == count;
+  };
+  bool right = pack() && unpack();
+  for (auto _ : state)
+  {
+    if (way == "memcpy")
     {
       std::memcpy(copy.data(), buffer.data(), buffer.size() * sizeof(double));
       benchmark::DoNotOptimize(copy.data());
       benchmark::ClobberMemory();
-      return true;
-    });
-  const int repeats = static_cast<int>(std::max<std::size_t>(1, 400'000 / count));
-  if (!rounds.run_all(state, "particles are lost", static_cast<double>(count), repeats))
-  {
-    return;
+    }
+    else
+    {
+      right = (way == "pack" ? pack() : unpack()) && right;
+    }
   }
-  for (const char* const way : { "pack", "unpack", "memcpy" })
+  if (!right)
   {
-    tell(state, way, 1e9 * median(rounds.of(way)), "ns/particle");
-    tell(state, std::string(way) + " against memcpy",
-      median_ratio(rounds.of(way), rounds.of("memcpy")), "1");
+    state.SkipWithError("particles are lost");
   }
+  state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 }
 
-void add_benchmarks(const Size& size)
+int main(int argc, char** argv)
 {
-  constexpr const char* names[] = { "comm", "comm_vel", "border", "border_vel", "border_hybrid",
-    "reverse", "exchange" };
-  for (const std::int64_t count : { size.pick(10'000, 100), size.pick(1'000'000, 1'000) })
+  benchmark::Initialize(&argc, argv);
+  constexpr std::pair<const char*, int> kinds[] = { { "comm", GRANULAR_BONDS_COMM },
+    { "comm_vel", GRANULAR_BONDS_COMM_VELOCITY }, { "border", GRANULAR_BONDS_BORDER },
+    { "border_hybrid", GRANULAR_BONDS_BORDER_HYBRID }, { "exchange", GRANULAR_BONDS_EXCHANGE } };
+  for (const auto& [name, kind] : kinds)
   {
-    for (const int kind : { GRANULAR_BONDS_COMM, GRANULAR_BONDS_COMM_VELOCITY,
-           GRANULAR_BONDS_BORDER, GRANULAR_BONDS_BORDER_HYBRID, GRANULAR_BONDS_EXCHANGE })
+    for (const char* const way : { "memcpy", "pack", "unpack" })
     {
-      add("bonds/" + std::string(names[kind]) + ", " + std::to_string(count) + " particles", 55,
-        [kind, count](benchmark::State& state)
-        { measure(state, kind, static_cast<std::size_t>(count)); });
+      benchmark::RegisterBenchmark((std::string(name) + "/" + way).c_str(),
+        [kind = kind, way](benchmark::State& state) { measure(state, kind, way); })
+        ->Arg(10'000)
+        ->Arg(1'000'000);
     }
   }
-}
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }

@@ -1,204 +1,254 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of text into columns in memory: decode_rows against a plain loop with std::from_chars.
-#include "bench.h"
-#include "dump_text.h"
-
+// Rows of text into columns in memory: decode_rows against a plain loop with std::from_chars. Options besides those of Google
+// Benchmark: --full, for texts that are larger than the caches.
 #include "granular/text/row_text.h"
 
-#include <cstring>
-#include <limits>
+#include <benchmark/benchmark.h>
 
-namespace bench
-{
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
 namespace
 {
 using granular::ColumnSink;
 using granular::Simd;
+using granular::ValueType;
 
-/// A few milliseconds a round. The text as a whole is larger than the caches.
-constexpr std::size_t slice_bytes = std::size_t{ 1 } << 21;
+using Random = std::mt19937_64;
 
-/// A text, its true values, and memory for those of the contenders.
-struct Work
+/// Columns of rows: integers first and last, doubles in the middle.
+struct Form
 {
-  Work(Form form, std::int64_t count)
-    : rows(make_rows(form, count))
-    , text(padded(rows.text))
-    , slices(cut(text.data(), text.data() + text.size(), slice_bytes))
-    , truth(rows, count)
-    , output(rows, count)
+  const char* name;
+  int integers_before;
+  int doubles;
+  int integers_behind;
+  const char* print;                                 ///< of doubles
+  double (*value)(Random& random, std::int64_t row); ///< of doubles
+
+  int columns() const { return integers_before + doubles + integers_behind; }
+  bool is_double(int column) const
   {
-    std::vector<ColumnSink> sinks = truth.sinks(0);
-    right = parse_slowly(rows.text.c_str(), sinks, count);
-    slice = slices.front();
+    return column >= integers_before && column < integers_before + doubles;
   }
-
-  bool decode(Simd simd, std::size_t first_column, std::size_t columns)
-  {
-    const std::vector<ColumnSink> all = output.sinks(slice.row);
-    const auto from = all.begin() + static_cast<std::ptrdiff_t>(first_column);
-    std::vector<ColumnSink> sinks(from, from + static_cast<std::ptrdiff_t>(columns));
-    const granular::RowResult result = granular::decode_rows(
-      slice.first, slice.last, rows.words(), sinks, std::numeric_limits<std::int64_t>::max(), simd);
-    return result.status == granular::RowStatus::Done && result.rows == slice.rows &&
-      !result.surplus && result.ptr == slice.last;
-  }
-
-  bool decode(Simd simd) { return this->decode(simd, 0, rows.words()); }
-
-  bool parse()
-  {
-    std::vector<Output::Place> places = output.places(slice.row);
-    return parse_plainly(slice.first, slice.last, places, slice.rows) != nullptr;
-  }
-
-  /// Whether a contender gets every value right, to the bit.
-  template <class Run>
-  bool check(Run&& run)
-  {
-    output.spoil();
-    bool good = right;
-    for (const Slice& each : slices)
-    {
-      slice = each;
-      good = run() && good;
-    }
-    return good && output == truth;
-  }
-
-  /// Whether what is decoded of some columns is right, and the others are left alone.
-  bool check_columns(Simd simd, std::size_t first_column, std::size_t columns)
-  {
-    output.spoil();
-    Output expected = output;
-    slice = slices.front();
-    const std::vector<ColumnSink> from = truth.sinks(slice.row);
-    const std::vector<ColumnSink> to = expected.sinks(slice.row);
-    for (std::size_t i = first_column; i < first_column + columns; ++i)
-    {
-      const std::size_t bytes = from[i].type == ValueType::Int32 ? 4 : 8;
-      for (std::ptrdiff_t row = 0; row < slice.rows; ++row)
-      {
-        std::memcpy(to[i].data + row * to[i].stride, from[i].data + row * from[i].stride, bytes);
-      }
-    }
-    return right && this->decode(simd, first_column, columns) && output == expected;
-  }
-
-  Rows rows;
-  granular::PaddedBuffer text;
-  std::vector<Slice> slices;
-  Output truth;
-  Output output;
-  Slice slice = {};
-  bool right = false;
 };
 
-/// One slice a round, going through the text as often as there are rounds.
-void run_rounds(benchmark::State& state, Work& work, Rounds& rounds, const std::string& judged)
+double unit(Random& random)
 {
-  std::size_t next = 0;
+  return std::uniform_real_distribution<>(-1, 1)(random);
+}
+
+double plain(Random& random, std::int64_t)
+{
+  return unit(random);
+}
+
+double at_rest(Random& random, std::int64_t row)
+{
+  return row % 2 == 0 ? 0 : unit(random);
+}
+
+template <int lowest, int highest>
+double any_magnitude(Random& random, std::int64_t)
+{
+  return unit(random) * std::pow(10, std::uniform_int_distribution<>(lowest, highest)(random));
+}
+
+const Form forms[] = {
+  { "8 columns %g", 2, 3, 3, "%g", plain },
+  { "12 columns %g", 2, 10, 0, "%g", plain },
+  { "12 columns %.16e", 2, 10, 0, "%.16e", plain },
+  { "12 columns %.6f", 2, 10, 0, "%.6f", plain },
+  { "12 columns %g, half at rest", 2, 10, 0, "%g", at_rest },
+  { "12 columns %g, 1e-40 to 1e-5", 2, 10, 0, "%g", any_magnitude<-40, -5> },
+  { "12 columns %g, 1e-300 to 1e300", 2, 10, 0, "%g", any_magnitude<-300, 300> },
+  { "12 columns of integers", 12, 0, 0, "", nullptr },
+};
+
+std::string text_of(const Form& form, std::int64_t rows)
+{
+  Random random(7);
+  std::string text;
+  char word[64];
+  for (std::int64_t row = 0; row < rows; ++row)
+  {
+    for (int column = 0; column < form.columns(); ++column)
+    {
+      if (form.is_double(column))
+      {
+        std::snprintf(word, sizeof word, form.print, form.value(random, row));
+      }
+      else
+      {
+        const std::int64_t value =
+          column == 0 ? row * 7919 % rows + 1 : static_cast<std::int64_t>(random() % 5) - 2;
+        std::snprintf(word, sizeof word, "%lld", static_cast<long long>(value));
+      }
+      text += word;
+      text += column + 1 < form.columns() ? ' ' : '\n';
+    }
+  }
+  return text;
+}
+
+/// A text and memory for its values, row after row; each value takes eight bytes.
+struct Work
+{
+  Work(const Form& of, std::int64_t count)
+    : form(of)
+    , rows(count)
+    , values(static_cast<std::size_t>(count * of.columns()), -1)
+  {
+    const std::string made = text_of(of, count);
+    text = granular::PaddedBuffer(made.size());
+    std::memcpy(text.data(), made.data(), made.size());
+  }
+
+  char* place(std::int64_t row, int column)
+  {
+    return reinterpret_cast<char*>(values.data() + row * form.columns() + column);
+  }
+
+  bool decode(Simd simd)
+  {
+    std::vector<ColumnSink> sinks;
+    for (int i = 0; i < form.columns(); ++i)
+    {
+      sinks.push_back(
+        { static_cast<std::uint32_t>(i), form.is_double(i) ? ValueType::Float64 : ValueType::Int64,
+          this->place(0, i), 8 * form.columns() });
+    }
+    const granular::RowResult result = granular::decode_rows(text.data(), text.data() + text.size(),
+      static_cast<std::uint32_t>(form.columns()), sinks, std::numeric_limits<std::int64_t>::max(),
+      simd);
+    return result.status == granular::RowStatus::Done && result.rows == rows;
+  }
+
+  /// The yardstick: one pass, and no thought of anything else. parse reads a word into a value and returns its end, or null.
+  template <class Parse>
+  bool loop(const Parse& parse)
+  {
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::int64_t row = 0; row < rows; ++row)
+    {
+      for (int i = 0; i < form.columns(); ++i)
+      {
+        while (at < end && (*at == ' ' || *at == '\n'))
+        {
+          ++at;
+        }
+        char* const to = this->place(row, i);
+        at = form.is_double(i) ? parse(at, end, *reinterpret_cast<double*>(to))
+                               : parse(at, end, *reinterpret_cast<std::int64_t*>(to));
+        if (!at)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool from_chars()
+  {
+    return this->loop(
+      [](const char* first, const char* last, auto& value) -> const char*
+      {
+        const std::from_chars_result result = std::from_chars(first, last, value);
+        return result.ec == std::errc() ? result.ptr : nullptr;
+      });
+  }
+
+  /// The truth.
+  bool strtod()
+  {
+    return this->loop(
+      [](const char* first, const char*, auto& value) -> const char*
+      {
+        char* end = nullptr;
+        if constexpr (std::is_same_v<decltype(value), double&>)
+        {
+          value = std::strtod(first, &end);
+        }
+        else
+        {
+          value = std::strtoll(first, &end, 10);
+        }
+        return end == first ? nullptr : end;
+      });
+  }
+
+  const Form& form;
+  std::int64_t rows;
+  granular::PaddedBuffer text;
+  std::vector<std::int64_t> values;
+};
+
+/// Checks the values against the truth, then runs the contender again and again.
+void measure(benchmark::State& state, const std::shared_ptr<Work>& work,
+  const std::vector<std::int64_t>& truth, const std::function<bool(Work&)>& contender)
+{
+  work->values.assign(work->values.size(), -1);
+  if (!contender(*work) || work->values != truth)
+  {
+    state.SkipWithError("values differ from strtod's");
+    return;
+  }
   for (auto _ : state)
   {
-    work.slice = work.slices[next++ % work.slices.size()];
-    const auto bytes = static_cast<double>(work.slice.last - work.slice.first);
-    if (!rounds.run(bytes))
-    {
-      fail(state, "a row was not decoded");
-      return;
-    }
-    state.SetIterationTime(rounds.of(judged).back() * bytes);
+    contender(*work);
   }
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(work->text.size()));
 }
 
-void speed(benchmark::State& state, Form form, std::int64_t count)
+void add_form(const Form& form, std::int64_t rows)
 {
-  Work work(form, count);
-  Rounds rounds;
-  rounds.add("from_chars", [&work] { return work.parse(); });
-  if (!work.check([&work] { return work.parse(); }))
+  const auto work = std::make_shared<Work>(form, rows);
+  if (!work->strtod())
   {
-    fail(state, "from_chars: values differ from strtod's");
-    return;
+    throw std::logic_error(std::string(form.name) + ": a word is no number");
   }
+  std::vector<std::pair<std::string, std::function<bool(Work&)>>> contenders = { { "from_chars",
+    [](Work& it) { return it.from_chars(); } } };
   for (const Simd simd : granular::instruction_sets())
   {
-    rounds.add(to_string(simd), [&work, simd] { return work.decode(simd); });
-    if (!work.check([&work, simd] { return work.decode(simd); }))
-    {
-      fail(state, std::string(to_string(simd)) + ": values differ from strtod's");
-      return;
-    }
+    contenders.emplace_back(to_string(simd), [simd](Work& it) { return it.decode(simd); });
   }
-  const std::string judged = to_string(granular::best_simd());
-  run_rounds(state, work, rounds, judged);
-  const Samples& plain = rounds.of("from_chars");
-  tell(state, "from_chars", 1e-9 / median(plain), "GB/s");
-  for (const Simd simd : granular::instruction_sets())
+  for (const auto& [name, contender] : contenders)
   {
-    const std::string name = to_string(simd);
-    const Samples& ours = rounds.of(name);
-    tell(state, name, 1e-9 / median(ours), "GB/s");
-    tell(state, name + " ratio", median_ratio(plain, ours), "1");
+    benchmark::RegisterBenchmark((std::string(form.name) + "/" + name).c_str(),
+      [work, truth = work->values, contender = contender](benchmark::State& state)
+      { measure(state, work, truth, contender); });
   }
-  const Samples& ours = rounds.of(judged);
-  tell(state, "ratio", median_ratio(plain, ours), "1");
-  tell(state, "ratio spread", spread_of_ratio(plain, ours), "1");
-  tell(state, "bytes a row",
-    static_cast<double>(work.rows.text.size()) / static_cast<double>(count), "B");
-  tell(state, "page faults while timing", static_cast<double>(rounds.faults()), "1");
-}
-
-/// Some columns of twelve against all of them.
-void columns(benchmark::State& state, std::size_t first, std::int64_t count)
-{
-  Work work(Form::Custom, count);
-  const Simd simd = granular::best_simd();
-  if (!work.check_columns(simd, first, 3))
-  {
-    fail(state, "values of three columns differ from strtod's");
-    return;
-  }
-  Rounds rounds;
-  rounds.add("all", [&work, simd] { return work.decode(simd); });
-  rounds.add("three", [&work, simd, first] { return work.decode(simd, first, 3); });
-  run_rounds(state, work, rounds, "three");
-  tell(state, "time against all", median_ratio(rounds.of("three"), rounds.of("all")), "1");
-  tell(
-    state, "time against all spread", spread_of_ratio(rounds.of("three"), rounds.of("all")), "1");
-  tell(state, "page faults while timing", static_cast<double>(rounds.faults()), "1");
 }
 }
 
-void add_benchmarks(const Size& size)
+int main(int argc, char** argv)
 {
-  struct Case
+  benchmark::Initialize(&argc, argv);
+  const bool full = argc == 2 && std::string(argv[1]) == "--full";
+  if (argc > 1 + full)
   {
-    const char* name;
-    Form form;
-    std::int64_t rows;
-  };
-  const std::int64_t million = size.pick(1'000'000, 3'000);
-  const std::int64_t some = size.pick(200'000, 3'000);
-  const Case cases[] = {
-    { "8 columns %g", Form::Atom, million },
-    { "12 columns %g", Form::Custom, million },
-    { "12 columns %.16e", Form::CustomFull, some },
-    { "12 columns %.6f", Form::CustomFixed, some },
-    { "12 columns %g, half at rest", Form::CustomAtRest, some },
-    { "12 columns %g, tiny values", Form::Tiny, some },
-    { "12 columns %g, extreme values", Form::Extreme, some },
-    { "12 columns of integers", Form::Integers, some },
-  };
-  const std::int64_t rounds = size.pick(150, 1);
-  for (const Case& each : cases)
-  {
-    add(std::string("decode/") + each.name, rounds,
-      [each](benchmark::State& state) { speed(state, each.form, each.rows); });
+    std::fprintf(stderr, "usage: bench_decode [--full] [--benchmark_...]\n");
+    return 2;
   }
-  add("decode/first three of 12", rounds,
-    [million](benchmark::State& state) { columns(state, 0, million); });
-  add("decode/last three of 12", rounds,
-    [million](benchmark::State& state) { columns(state, 9, million); });
-}
+  for (const Form& form : forms)
+  {
+    add_form(form, full ? 200'000 : 3'000);
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }

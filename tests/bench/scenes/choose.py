@@ -2,10 +2,24 @@
 """Only what the scene needs: time and memory against the part of a frame, or of a run, that is kept."""
 import numpy
 
-from scene import Packing, Rounds, main, open_dump, points_of, read_again
+from scene import Packing, Rounds, main, open_dump, points_of, read_again, table
 
 ARRAYS = ("id", "type", "v", "f", "radius")
 ALL = "everything"
+TENTH = "RegionOfInterest 0.1 of the box"
+REGION = (0, 0.1, -1, 2, -1, 2)
+# name: arrays, properties
+CHOICES = {
+    ALL: (ARRAYS, {}),
+    "columns: points v radius": (("v", "radius"), {}),
+    "columns: points": ((), {}),
+    "Stride 2": (ARRAYS, {"Stride": 2}),
+    "Stride 5": (ARRAYS, {"Stride": 5}),
+    "Stride 100": (ARRAYS, {"Stride": 100}),
+    TENTH: (ARRAYS, {"RegionOfInterest": REGION}),
+    "Vertices None": (ARRAYS, {"Vertices": 0}),
+    "points of every 10th, single, Vertices None": ((), {"Stride": 10, "Vertices": 0, "PointPrecision": 0}),
+}
 
 
 def open_some(path, arrays=ARRAYS, **properties):
@@ -18,38 +32,20 @@ def open_some(path, arrays=ARRAYS, **properties):
 def study_of(study):
     packing = Packing(layers=study.pick(21, 1), lattice=study.pick(63, 8))
     text = packing.write(study.folder / "one.dump", "%g")
-    # name: (part of the values or particles that is kept, reader)
-    region = lambda part: {"RegionOfInterest": (0, part, -1, 2, -1, 2)}  # noqa: E731
-    choices = {ALL: (1, open_some(text))}
-    for count, arrays in ((9, ("id", "v", "f", "radius")), (7, ("v", "radius")), (4, ("radius",)), (3, ())):
-        name = "columns: " + " ".join(("points", *arrays))
-        values = 3 + sum({"v": 3, "f": 3}.get(array, 1) for array in arrays)
-        choices[name] = (values / 12, open_some(text, arrays))
-    for stride in (2, 5, 10, 100):
-        choices[f"Stride {stride}"] = (1 / stride, open_some(text, Stride=stride))
-    for part in (0.5, 0.1, 0.01):
-        kept = float((packing.points[:, 0] <= part).mean())
-        choices[f"RegionOfInterest {part:g} of the box"] = (kept, open_some(text, **region(part)))
-    choices["Vertices None"] = (1, open_some(text, Vertices=0))
-    choices["points of every 10th, single, Vertices None"] = (
-        0.3 / 12, open_some(text, (), Stride=10, Vertices=0, PointPrecision=0))
-    times = Rounds()
-    for name, (kept, reader) in choices.items():
+    readers = {name: open_some(text, arrays, **properties) for name, (arrays, properties) in CHOICES.items()}
+    times, memory, points = Rounds(packing.rows), {}, {}
+    for name, reader in readers.items():
         data = read_again(reader)
-        study.tell(name, "kept", kept, "1")
-        study.tell(name, "memory", 1024 * data.GetActualMemorySize() / packing.rows, "B/particle")
+        memory[name] = 1024 * data.GetActualMemorySize() / packing.rows
+        points[name] = points_of(data)
         times.add(name, lambda reader=reader: read_again(reader))
-    some, whole = (points_of(read_again(choices[name][1])) for name in ("Stride 5", ALL))
-    study.check(numpy.array_equal(some, whole[4::5]), "Stride")
-    inside = points_of(read_again(choices["RegionOfInterest 0.1 of the box"][1]))
-    study.check(len(inside) == int((numpy.round(packing.points[:, 0], 6) <= 0.1).sum()), "RegionOfInterest")
-    times.run(study.pick(7, 1))
-    whole = study.cases[ALL]["memory:B/particle"]
-    for name in choices:
-        study.tell(name, "read", 1e9 * times.time(name) / packing.rows, "ns/particle")
-        study.tell(name, "read against everything", times.ratio(name, ALL), "1")
-        study.tell(name, "memory against everything", study.cases[name]["memory:B/particle"] / whole, "1")
-    frames_of_many(study)
+    study.check(numpy.array_equal(points["Stride 5"], points[ALL][4::5]), "Stride")
+    study.check(len(points[TENTH]) == int((numpy.round(packing.points[:, 0], 6) <= 0.1).sum()), "RegionOfInterest")
+    times.run(study.pick(5, 1))
+    study.block("choose", "333,396 particles as above, text of %g. One thread, processor time.",
+                table(["choice", "read ns/particle", "against everything", "memory B/particle", "against everything"],
+                      [[f"`{name}`", f"{times.ns(name):.0f}", f"{times.ratio(name, ALL):.2f}", f"{memory[name]:.0f}",
+                        f"{memory[name] / memory[ALL]:.2f}"] for name in readers]), *frames_of_many(study))
 
 
 def frames_of_many(study):
@@ -63,22 +59,17 @@ def frames_of_many(study):
     reader = open_some(path)
 
     def show(frames):
+        reader.Modified()
         for step in range(frames):
             reader.UpdateTimeStep(float(step))
 
-    def again(frames):
-        reader.Modified()
-        show(frames)
-
-    times = Rounds()
-    times.add("all", lambda: again(20))
-    times.add("one", lambda: again(1))
-    times.add("open", lambda: open_some(path))
+    times = Rounds(20 * packing.rows)
+    times.add("20 frames of 20", lambda: show(20))
+    times.add("1 frame of 20", lambda: show(1))
+    times.add("opening: index of 20 frames", lambda: open_some(path))
     times.run(study.pick(5, 1))
-    for name, case in (("all", "20 frames of 20"), ("one", "1 frame of 20"), ("open", "opening: index of 20 frames")):
-        study.tell(case, "kept", {"all": 1, "one": 1 / 20, "open": 1}[name], "1")
-        study.tell(case, "read", 1e9 * times.time(name) / packing.rows / 20, "ns/particle")
-        study.tell(case, "read against all", times.ratio(name, "all"), "1")
+    return ["A file of 20 frames:", table(["choice", "ns a particle of the run", "against all"], [
+        [f"`{name}`", f"{times.ns(name):.1f}", f"{times.ratio(name, '20 frames of 20'):.3f}"] for name in times.contenders])]
 
 
 main(study_of)

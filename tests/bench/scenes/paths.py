@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Particles through time: paths of some, and mean square displacements of all, against decoding the same frames, and other programs.
+"""Particles through time: paths of some, and mean square displacements of all, against decoding the same frames.
 
 The particles walk at random in a periodic box, and their rows are in the order of cells of the box, as simulations have them: it
 changes a little from frame to frame. Ids have no order in space."""
-import importlib.util
-import time
-
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersGeneral import vtkTemporalPathLineFilter
 
 import granular
-from scene import Rounds, main, open_dump
+from scene import Rounds, main, open_dump, table
 
 SELECTED = 1000
 STEP = 2e-3  # rms along each axis from frame to frame, in box lengths
@@ -46,9 +42,9 @@ def times_of(reader):
     return reader.GetOutputInformation(0).Get(reader.GetExecutive().TIME_STEPS())
 
 
-def open_run(path, *arrays, threads=1, **properties):
+def open_run(path, *arrays):
     """A reader that knows the frames, and has shown the last one: points and these arrays, or all columns."""
-    reader = open_dump(path, Threads=threads, **properties)
+    reader = open_dump(path)
     if arrays:
         reader.GetPointDataArraySelection().DisableAllArrays()
         for name in arrays:
@@ -76,35 +72,13 @@ def filter_on(reader, kind, **properties):
     return made
 
 
-def paths(path, threads=1):
-    return filter_on(open_run(path, "id", threads=threads), granular.vtkGranularTrajectories, Threads=threads, NumberOfSamples=SELECTED)
+def paths(path):
+    return filter_on(open_run(path, "id"), granular.vtkGranularTrajectories, Threads=1, NumberOfSamples=SELECTED)
 
 
-def squares(path, threads=1):
-    return filter_on(open_run(path, "id", threads=threads), granular.vtkGranularHistory, Threads=threads,
-                     OutputType=granular.vtkGranularHistory.STATISTICS, MeanSquareDisplacement=True)
-
-
-def paths_of_vtk(path, particles):
-    reader = open_run(path, "id", Coordinates=granular.vtkGranularDumpReader.UNWRAPPED)
-    return filter_on(reader, vtkTemporalPathLineFilter, IdChannelArray="id", MaskPoints=particles // SELECTED, MaxTrackLength=1000)
-
-
-def step_filter(lines):
-    reader = lines.GetInputAlgorithm()
-    for moment in times_of(reader):
-        lines.UpdateTimeStep(moment)
-    return lines.GetOutput()
-
-
-def open_mdanalysis(path, ids):
-    import MDAnalysis
-    universe = MDAnalysis.Universe(str(path), format="LAMMPSDUMP", topology_format="LAMMPSDUMP")
-    return universe, universe.atoms[numpy.isin(universe.atoms.ids, ids)]
-
-
-def step_mdanalysis(universe, chosen):
-    return [chosen.positions for _ in universe.trajectory]
+def squares(path):
+    return filter_on(open_run(path, "id"), granular.vtkGranularHistory, Threads=1, OutputType=granular.vtkGranularHistory.STATISTICS,
+                     MeanSquareDisplacement=True)
 
 
 def check_results(study, walk, path):
@@ -120,36 +94,24 @@ def check_results(study, walk, path):
     study.check(abs(ends - starts - moved[rows]).max() < 3e-6, "paths")
     msd = vtk_to_numpy(update(squares(path)).GetColumnByName("msd"))[-1]
     study.check(abs(msd / (moved ** 2).sum(1).mean() - 1) < 1e-4, "mean square displacement")
-    return ids
 
 
 def study_of(study):
     particles, frames = study.pick(250_000, 5000), study.pick(12, 3)
     walk = Walk(particles, frames)
     path = walk.write(study.folder / "walk.dump")
-    ids = check_results(study, walk, path)
-    alone, both, others = Rounds(), Rounds(time.perf_counter), Rounds()
-    alone.add("all columns", step_through, lambda: (open_run(path),))
-    alone.add("ids and positions", step_through, lambda: (open_run(path, "id"),))
-    alone.add("paths of 1000", update, lambda: (paths(path),))
-    alone.add("mean square displacement of all", update, lambda: (squares(path),))
-    alone.add("ParaView, vtkTemporalPathLineFilter", step_filter, lambda: (paths_of_vtk(path, particles),))
-    for count in (1, 2):
-        both.add(f"paths, {count}", update, lambda count=count: (paths(path, count),))
-        both.add(f"squares, {count}", update, lambda count=count: (squares(path, count),))
-    alone.run(study.pick(5, 1))
-    both.run(study.pick(5, 1))
-    if importlib.util.find_spec("MDAnalysis"):
-        others.add("MDAnalysis, positions of 1000", step_mdanalysis, lambda: open_mdanalysis(path, ids))
-        others.run(1)
-    for rounds in (alone, others):
-        for case in rounds.contenders:
-            study.tell(case, "time", 1e9 * rounds.time(case) / particles / frames, "ns/particle")
-            for baseline in ("all columns", "ids and positions"):
-                ratio = rounds.ratio(case, baseline) if rounds is alone else rounds.time(case) / alone.time(baseline)
-                study.tell(case, f"against {baseline}", ratio, "1")
-    for case, what in (("paths of 1000", "paths"), ("mean square displacement of all", "squares")):
-        study.tell(case, "speed of 2 threads", both.ratio(f"{what}, 1", f"{what}, 2"), "1")
+    check_results(study, walk, path)
+    times = Rounds(particles * frames)
+    times.add("all columns", step_through, lambda: (open_run(path),))
+    times.add("ids and positions", step_through, lambda: (open_run(path, "id"),))
+    times.add("paths of 1000", update, lambda: (paths(path),))
+    times.add("mean square displacement of all", update, lambda: (squares(path),))
+    times.run(study.pick(5, 1))
+    study.block("paths", "250,000 particles walk at random in a periodic box: 12 frames of 15 columns of %g, with image counts; rows in the order "
+                "of places. The run is open. all columns, ids and positions: all frames are read, one after the other. Paths: of 1000 "
+                "particles, a random sample. One thread, processor time.",
+                table(["case", "time ns/particle and frame", "against all columns"], [
+                    [f"`{case}`", f"{times.ns(case):.0f}", f"{times.ratio(case, 'all columns'):.2f}"] for case in times.contenders]))
 
 
 main(study_of)

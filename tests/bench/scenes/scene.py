@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the studies of scenes share: a packing whose true values are known, times in turns, and figures.
+"""What the studies of scenes share: a packing whose true values are known, times in turns, and blocks of Markdown.
 
 The packing is a block of an FCC lattice that is stretched by 5 % along x, in a box of length 1: the part of a box of 10^6
 particles that is 4 lattice cells high, and so 63,504 particles with radii from 4.7e-3 to 5.3e-3. Each particle is displaced by up to 1e-3
@@ -7,9 +7,6 @@ lattice constants, so that no coordinate is a short decimal. Its doubles are the
 doubles near each other, which a subtraction gives exactly (Sterbenz); where an origin was subtracted from points, the
 subtraction is compensated."""
 import argparse
-import json
-import os
-import platform
 import statistics
 import tempfile
 import time
@@ -31,47 +28,62 @@ COLUMNS = ("id", "type", "x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", "rad
 
 
 class Study:
-    """Figures by case and 'metric:unit', and how much is to be measured."""
+    """How much is to be measured, and what is told: blocks of Markdown, and pictures."""
 
-    def __init__(self, full, folder):
-        self.full, self.folder, self.cases = full, Path(folder), {}
+    def __init__(self, options, folder):
+        self.quick, self.large, self.out, self.folder = options.quick, options.large, Path(options.out), Path(folder)
 
     def pick(self, for_full, for_quick):
-        return for_full if self.full else for_quick
-
-    def tell(self, case, metric, value, unit):
-        self.cases.setdefault(case, {})[f"{metric}:{unit}"] = float(value)
+        return for_quick if self.quick else for_full
 
     def check(self, truth, what):
         if not truth:
             raise SystemExit(f"wrong result: {what}")
 
+    def block(self, name, *paragraphs):
+        """Writes NAME.md: a paragraph is a text, or the lines of a table."""
+        lines = [text if isinstance(text, str) else "\n".join(text) for text in paragraphs]
+        (self.out / f"{name}.md").write_text("\n\n".join(lines) + "\n", encoding="utf-8")
+
+    def picture(self, name, draw):
+        """Writes NAME.png, if matplotlib is there; draw(pyplot) returns a figure."""
+        try:
+            import matplotlib
+            matplotlib.use("Agg")
+            from matplotlib import pyplot
+        except ImportError:
+            return
+        draw(pyplot).savefig(self.out / f"{name}.png", dpi=100)
+
+
+def table(head, rows):
+    """Lines of Markdown; None is an empty cell."""
+    cells = [["" if cell is None else str(cell) for cell in row] for row in (head, *rows)]
+    lines = ["| " + " | ".join(row) + " |" for row in cells]
+    return [lines[0], "|---" + "|--:" * (len(head) - 1) + "|", *lines[1:]]
+
+
+def scientific(value):
+    return "0" if value == 0 else f"{value:.1e}".replace("e-0", "e-").replace("e+0", "e+")
+
 
 def main(study_of):
-    """Runs a study: program [--full] --out FILE. Fails where a result is wrong, never on time."""
+    """Runs a study: program [--quick | --large] --out FOLDER. Fails where a result is wrong, never on time."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--full", action="store_true")
+    parser.add_argument("--quick", action="store_true")
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--out", required=True)
     options = parser.parse_args()
-    load = os.getloadavg()
     vtkObject.GlobalWarningDisplayOff()  # writers warn of lost digits, which are what is measured here
     with tempfile.TemporaryDirectory() as folder:
-        study = Study(options.full or options.large, folder)
-        study_of(study)
-    context = {"cores": str(len(os.sched_getaffinity(0))), "num_cpus": os.cpu_count(), "load_avg": load,
-               "instruction set": "of the processor", "compiler": f"Python {platform.python_version()}",
-               "date": time.strftime("%Y-%m-%d")}
-    benchmarks = [{"name": f"scene/{case}", **told} for case, told in study.cases.items()]
-    with open(options.out, "w", encoding="utf-8") as stream:
-        json.dump({"context": context, "benchmarks": benchmarks}, stream)
+        study_of(Study(options, folder))
 
 
 class Rounds:
     """Contenders that take turns; a time is the median over rounds, a ratio the median of ratios within a round."""
 
-    def __init__(self, clock=time.process_time):
-        self.clock, self.contenders, self.samples = clock, {}, {}
+    def __init__(self, rows, clock=time.process_time):
+        self.rows, self.clock, self.contenders, self.samples = rows, clock, {}, {}
 
     def add(self, name, work, prepare=None):
         self.contenders[name] = (work, prepare)
@@ -88,8 +100,9 @@ class Rounds:
                 work(*prepared)
                 self.samples[name].append(self.clock() - start)
 
-    def time(self, name):
-        return statistics.median(self.samples[name])
+    def ns(self, name):
+        """Nanoseconds a row."""
+        return 1e9 * statistics.median(self.samples[name]) / self.rows
 
     def ratio(self, name, baseline):
         return statistics.median(a / b for a, b in zip(self.samples[name], self.samples[baseline]))
@@ -172,9 +185,6 @@ def lengths(vectors):
     return numpy.sqrt((numpy.asarray(vectors, dtype=numpy.longdouble) ** 2).sum(1))
 
 
-def tell_error(study, case, metric, error, scale, unit):
-    """Of vectors, one in a row, the lengths are the errors."""
-    error = lengths(error) if numpy.ndim(error) == 2 else numpy.abs(numpy.asarray(error, dtype=numpy.longdouble))
-    error = error / scale
-    study.tell(case, f"{metric}, largest", error.max(), unit)
-    study.tell(case, f"{metric}, rms", numpy.sqrt((error ** 2).mean()), unit)
+def largest(error):
+    """The largest magnitude of numbers, or length of vectors."""
+    return float((lengths(error) if numpy.ndim(error) == 2 else numpy.abs(error)).max())

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Storing a scene: bytes a particle, time to write and read, and what is lost, for boxes near to and far from the origin."""
-import ctypes
-import gzip
+"""Storing a scene: bytes a particle, time to write and read, and what is lost, for boxes near to and far from the origin; and which
+way suits which need."""
 import os
 import shutil
 
@@ -10,25 +9,56 @@ from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 import granular
-from scene import (COLUMNS, SMALLEST, Packing, Rounds, array_of, lengths, main, open_dump, points_of, read_again, tell_error)
+from scene import (COLUMNS, SMALLEST, Packing, Rounds, array_of, largest, lengths, main, open_dump, points_of, read_again, scientific,
+                   table)
 
 SCALED = "id type xs ys zs " + " ".join(COLUMNS[5:])
 PLACES = {"0": 0.0, "1e3": 1000.123456789, "1e6": 1000123.456789}  # far boxes have no round bounds
-BASELINE = "custom %g"
+DEFAULT = "custom %g"  # what most runs write
+SIX = "scaled %g, box of LIGGGHTS"
+EXACT = 1e-17  # where errors of 0 are drawn
 
-# name: properties of the writer, ending. Without NumberFormat: six digits are not asked for.
+# name: properties of the writer, ending, packers
 KINDS = {
-    "custom %g": ({"NumberFormat": "%g"}, ".dump"),
-    "custom %.9g": ({"NumberFormat": "%.9g"}, ".dump"),
-    "custom %.12g": ({"NumberFormat": "%.12g"}, ".dump"),
-    "custom %.17g": ({"NumberFormat": "%.17g"}, ".dump"),
-    "custom shortest": ({"NumberFormat": "shortest"}, ".dump"),
-    "scaled %g": ({"NumberFormat": "%g", "Columns": SCALED}, ".dump"),
-    "scaled %.9g": ({"NumberFormat": "%.9g", "Columns": SCALED}, ".dump"),
-    "binary, LIGGGHTS": ({"Dialect": 0}, ".bin"),
-    "binary, LAMMPS": ({"Dialect": 1}, ".bin"),
+    DEFAULT: ({"NumberFormat": "%g"}, ".dump", True),
+    "custom %.9g": ({"NumberFormat": "%.9g"}, ".dump", False),
+    "custom %.12g": ({"NumberFormat": "%.12g"}, ".dump", True),
+    "custom %.17g": ({"NumberFormat": "%.17g"}, ".dump", False),
+    "custom shortest": ({"NumberFormat": "shortest"}, ".dump", True),
+    "scaled %g": ({"NumberFormat": "%g", "Columns": SCALED}, ".dump", False),
+    "scaled %.9g": ({"NumberFormat": "%.9g", "Columns": SCALED}, ".dump", False),
+    "binary, LIGGGHTS": ({"Dialect": 0}, ".bin", False),
+    "binary, LAMMPS": ({"Dialect": 1}, ".bin", False),
 }
 PACKERS = {"": "", ", gzip": ".gz", ", zstd": ".zst"}
+
+# need, way to store, place of the box, settings besides, error that matters, what goes wrong with the default
+DECIDE = (
+    ("a picture, box near the origin", DEFAULT, "0", "the default of most runs; `PointPrecision=\"Single\"` saves memory", "position",
+     "nothing"),
+    ("a picture, box far away", "custom %.9g", "1e3",
+     "`dump_modify ID format \"%d %d %.9g ...\"`, a format for each column; `PointPrecision=\"Single\"` only with `PointOrigin`",
+     "position", "particles jump by two radii"),
+    ("the same by LAMMPS", "scaled %g", "1e3", "`xs ys zs`: LAMMPS prints all digits of the box, LIGGGHTS six", "position",
+     "particles jump by two radii"),
+    ("a picture of many particles", "binary, LAMMPS", "1e3", "`PointArrayStatus` of what is shown, `Vertices=\"None\"`", "position",
+     "text takes longer to read"),
+    ("velocities to 1e-4, box anywhere", "custom %.9g", "1e3", "`%g` for `vx vy vz` is enough", "velocity",
+     "velocities are right, positions are not"),
+    ("averages in cells", "custom %.9g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii: see [Cells](#cells)", "position",
+     "particles are in wrong cells"),
+    ("strain to 1e-4, box near the origin", "custom %.9g", "0", "", "strain", "the error is as large as the strain"),
+    ("strain to 1e-4, box far away", "custom %.12g", "1e3", "", "strain", "nothing is right"),
+    ("forces of particles to 1e-4", "custom %.9g", "1e3", "forces of contacts: `dump local`, six digits as well", "force",
+     "forces are right, positions are not"),
+    ("to go on with a run", "binary, LAMMPS", "1e3", "all columns of the atom style; contacts and bonds only in a restart file",
+     "position", "particles overlap"),
+    ("exchange with LIGGGHTS", "custom shortest", "1e3", "`Dialect=\"LIGGGHTS\"`", "position",
+     "digits are lost; `NumberFormat=\"Automatic\"` keeps them"),
+    ("exchange with other programs", "custom shortest", "1e3", "", "position", "digits are lost, in VTK's text as well"),
+    ("an archive", "custom %.12g, zstd", "1e3", "`.zst` in the name", "position", "digits are lost"),
+)
+UNITS = {"position": " radii", "velocity": " of the rms velocity", "force": " of a force", "strain": ""}
 
 
 def dump_writer(data, path, **properties):
@@ -40,117 +70,51 @@ def dump_writer(data, path, **properties):
     return writer
 
 
-def zstd(content, level):
-    """By the system's library: Python has none."""
-    library = ctypes.CDLL("libzstd.so.1")
-    library.ZSTD_compressBound.restype = library.ZSTD_compress.restype = ctypes.c_size_t
-    room = library.ZSTD_compressBound(ctypes.c_size_t(len(content)))
-    out = ctypes.create_string_buffer(room)
-    size = library.ZSTD_compress(out, ctypes.c_size_t(room), content, ctypes.c_size_t(len(content)), level)
-    return out.raw[:size]
+def dump_reader(path):
+    return open_dump(path, **({"ColumnNames": " ".join(COLUMNS)} if path.endswith(".bin") else {}))
 
 
-class PackedBinary:
-    """A binary dump that is compressed afterwards, as by the program gzip or zstd: no code writes such files."""
-
-    def __init__(self, writer, path):
-        self.writer, self.path = writer, path
-
-    def Write(self):
-        plain, ending = os.path.splitext(self.path)
-        self.writer.SetFileName(plain)
-        done = self.writer.Write()
-        with open(plain, "rb") as stream:
-            content = stream.read()
-        os.remove(plain)
-        with open(self.path, "wb") as out:
-            out.write(gzip.compress(content, 6, mtime=0) if ending == ".gz" else zstd(content, 3))
-        return done
+def vtk_legacy(data, path):
+    writer = vtkPolyDataWriter()
+    writer.SetFileTypeToASCII()
+    writer.SetInputData(data)
+    writer.SetFileName(path)
+    return writer
 
 
-def vtk_ways():
-    """name: (make a writer, make a reader, ending) of VTK's own formats."""
-    def legacy(data, path):
-        writer = vtkPolyDataWriter()
-        writer.SetFileTypeToASCII()
-        writer.SetInputData(data)
-        writer.SetFileName(path)
-        return writer
-
-    def xml(compress):
-        def make(data, path):
-            writer = vtkXMLPolyDataWriter()
-            writer.SetDataModeToBinary() if compress else writer.SetDataModeToAppended()
-            writer.EncodeAppendedDataOff()
-            if not compress:
-                writer.SetCompressorTypeToNone()
-            writer.SetInputData(data)
-            writer.SetFileName(path)
-            return writer
-        return make
-
-    ways = {"VTK legacy, text": (legacy, vtkPolyDataReader, ".vtk"),
-            "VTP, raw": (xml(False), vtkXMLPolyDataReader, ".vtp"),
-            "VTP, zlib": (xml(True), vtkXMLPolyDataReader, ".vtp")}
-    try:
-        from vtkmodules.vtkIOHDF import vtkHDFReader, vtkHDFWriter
-    except ImportError:
-        return ways
-    def hdf(data, path):
-        writer = vtkHDFWriter()
-        writer.SetInputData(data)
-        writer.SetFileName(path)
-        return writer
-    return {**ways, "VTKHDF": (hdf, vtkHDFReader, ".vtkhdf")}
+def vtk_xml(data, path):
+    """Raw appended data."""
+    writer = vtkXMLPolyDataWriter()
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToNone()
+    writer.SetInputData(data)
+    writer.SetFileName(path)
+    return writer
 
 
-class Way:
-    """One way to store one scene: its file is written by write(), its data are what read() gives."""
-
-    def __init__(self, name, make_writer, open_reader, path):
-        self.name, self.make_writer, self.open_reader, self.path = name, make_writer, open_reader, path
-        self.is_dump = open_reader is None
-
-    def prepare(self):
-        return (self.make_writer(),)
-
-    @staticmethod
-    def write(writer):
-        if not writer.Write():
-            raise SystemExit("a file could not be written")
-
-    def reader(self):
-        if self.is_dump:
-            names = ()
-            if self.path.endswith(".bin") or ".bin." in self.path:
-                names = (("ColumnNames", " ".join(COLUMNS)),)
-            return open_dump(self.path, **dict(names))
-        reader = self.open_reader()
-        reader.SetFileName(self.path)
+def vtk_reader(kind):
+    def open_file(path):
+        reader = kind()
+        reader.SetFileName(path)
         return reader
+    return open_file
 
 
-def ways_of(study, data, place):
-    for kind, (properties, ending) in KINDS.items():
-        for packer, more in PACKERS.items():
-            path = str(study.folder / f"{kind}{packer}{place}".replace(" ", "_").replace("%", "")) + ending + more
-            packed = ending == ".bin" and more
-            yield Way(kind + packer, lambda p=path, q=properties, packed=packed:
-                      PackedBinary(dump_writer(data, p, **q), p) if packed else dump_writer(data, p, **q), None, path)
-    for kind, (make, reader, ending) in vtk_ways().items():
-        path = str(study.folder / f"{kind}{place}".replace(" ", "_")) + ending
-        yield Way(kind, lambda p=path, m=make: m(data, p), reader, path)
+def ways():
+    """name: (make a writer of data and a path, open a path, ending)."""
+    for kind, (properties, ending, packed) in KINDS.items():
+        for packer, more in PACKERS.items() if packed else [("", "")]:
+            yield kind + packer, (lambda data, path, p=properties: dump_writer(data, path, **p), dump_reader, ending + more)
+    yield "VTK legacy, text", (vtk_legacy, vtk_reader(vtkPolyDataReader), ".vtk")
+    yield "VTP, raw", (vtk_xml, vtk_reader(vtkXMLPolyDataReader), ".vtp")
 
 
-def tell_errors(study, way, place, packing, data):
-    points, case = points_of(data), f"{way.name}; box at {place}"
-    tell_error(study, case, "position", points - packing.points, SMALLEST, "radius")
-    tell_error(study, case, "velocity", array_of(data, "v") - packing.v, numpy.sqrt((lengths(packing.v) ** 2).mean()), "rms")
-    tell_error(study, case, "force", lengths(array_of(data, "f") - packing.f) / lengths(packing.f), 1, "1")
-    tell_error(study, case, "strain", packing.strain_of(points) - packing.strain, 1, "1")
-    exact = any(name in way.name for name in ("17g", "shortest", "binary", "VTP, raw", "VTP, zlib", "VTKHDF"))
-    if exact:
-        study.check((points == packing.points).all() and (array_of(data, "f") == packing.f).all(), case)
+def errors_of(packing, data):
+    points = points_of(data)
+    return {"position": largest(points - packing.points) / SMALLEST, "strain": largest(packing.strain_of(points) - packing.strain),
+            "velocity": largest(array_of(data, "v") - packing.v) / float(numpy.sqrt((lengths(packing.v) ** 2).mean())),
+            "force": largest(lengths(array_of(data, "f") - packing.f) / lengths(packing.f))}
 
 
 def print_box_as_liggghts(path, packing):
@@ -163,62 +127,109 @@ def print_box_as_liggghts(path, packing):
         out.write(head + mark + 3 * ("%g %g\n" % (packing.lo, packing.hi)) + rows)
 
 
-def far_box_of_liggghts(study):
-    """The example of the page, in the bytes of LIGGGHTS: particles of radius 1 mm in a box of 0.19 m, 1 km away along all axes."""
-    lo, length, radius = 1000.1249, 0.1902, 1e-3
-    scaled = numpy.random.default_rng(1).random((study.pick(100_000, 1000), 3))
-    points = lo + length * scaled
-    head = (f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{len(points)}\nITEM: BOX BOUNDS ff ff ff\n"
-            + 3 * ("%g %g\n" % (lo, lo + length)) + "ITEM: ATOMS id type ")
-    for columns, values, form in (("xs ys zs", scaled, "%g"), ("x y z", points, "%g"), ("x y z", points, "%.9g"), ("x y z", points, "%.12g")):
-        path = study.folder / "far.dump"
-        with open(path, "w", encoding="ascii") as out:
-            out.write(head + f"{columns} \n")
-            numpy.savetxt(out, numpy.column_stack((numpy.arange(1, len(points) + 1), values)), f"%d 1 {form} {form} {form} ")
-        found = points_of(read_again(open_dump(path)))
-        case = f"far box of LIGGGHTS, {columns} of {form}"
-        tell_error(study, f"{case}; box at 1e3", "position", found - points, radius, "radius")
-        tell_error(study, f"{case}; box at 1e3", "coordinate", (found - points).ravel(), radius, "radius")
+def write(writer):
+    if not writer.Write():
+        raise SystemExit("a file could not be written")
+
+
+def measure(study, place):
+    """Returns errors by way, and costs by way for the place of which the table has them: bytes, ns to write, ns to read."""
+    timed = place == "1e3"
+    packing = Packing(PLACES[place], layers=study.pick(4 if timed else 1, 1), lattice=study.pick(63, 8))
+    true = open_dump(packing.write(study.folder / f"true_{place}.dump"))
+    true.Update()
+    data = true.GetOutput()
+    study.check((points_of(data) == packing.points).all(), "reading %.17g")
+    writing, reading, errors, sizes = Rounds(packing.rows), Rounds(packing.rows), {}, {}
+    for number, (name, (make, open_file, ending)) in enumerate(ways()):
+        path = str(study.folder / f"{number}_{place}{ending}")
+        write(make(data, path))
+        reader = open_file(path)
+        found = read_again(reader)
+        if name == "VTP, raw" and found.GetNumberOfPoints() == 0:
+            continue  # some versions of libexpat refuse what VTK has written raw
+        study.check(found.GetNumberOfPoints() == packing.rows, name)
+        errors[name] = errors_of(packing, found)
+        sizes[name] = os.path.getsize(path) / packing.rows
+        if any(exact in name for exact in ("17g", "shortest", "binary", "raw")):
+            study.check(not any(errors[name].values()), name)
+        if name == "scaled %g" and place != "1e6":  # there, both bounds would be the same
+            six = path.replace(".dump", "_six.dump")
+            shutil.copy(path, six)
+            print_box_as_liggghts(six, packing)
+            errors[SIX] = errors_of(packing, read_again(dump_reader(six)))
+        writing.add(name, write, lambda make=make, path=path: (make(data, path),))
+        reading.add(name, lambda reader=reader: read_again(reader))
+    if not timed:
+        return errors, {}
+    writing.run(study.pick(3, 1))
+    reading.run(study.pick(3, 1))
+    return errors, {name: (sizes[name], writing.ns(name), reading.ns(name)) for name in sizes}
+
+
+def decide(errors, costs):
+    def told(way, place, metric):
+        return scientific(errors[place][way][metric]) + UNITS[metric]
+    return table(["need", "store as", "settings besides", "B/particle", "write ns/particle", "read ns/particle", "largest error",
+                  f"with the default, `{DEFAULT}`", "what goes wrong with the default"],
+                 [[need, f"`{way}`", besides, *(f"{cost:.0f}" for cost in costs[way]), told(way, place, metric),
+                   told(DEFAULT, place, metric), wrong] for need, way, place, besides, metric, wrong in DECIDE])
+
+
+def front(points):
+    """The points that no other one beats in both, in order."""
+    best, found = float("inf"), []
+    for x, y, name in sorted(points):
+        if y < best:
+            best = y
+            found.append((x, y, name))
+    return found
+
+
+def scatter(axes, points, label):
+    """Points and their front; those behind it are grey, and the default is red."""
+    ahead = front(points)
+    names = {name for _, _, name in ahead}
+    for x, y, name in points:
+        axes.plot(x, max(y, EXACT), "o", color="C3" if name == DEFAULT else "C0" if name in names else "0.75")
+        if name in names or name in (DEFAULT, "VTK legacy, text", "VTP, raw"):
+            axes.annotate(name, (x, max(y, EXACT)), textcoords="offset points", xytext=(6, 5 if name in names else -11), fontsize=7)
+    axes.step([x for x, _, _ in ahead], [max(y, EXACT) for _, y, _ in ahead], where="post", color="C0", linewidth=1)
+    axes.set_yscale("log")
+    axes.set_ylim(EXACT / 30, 1e4)
+    axes.axhline(1e-2, color="0.6", linewidth=0.8, linestyle=":")
+    axes.grid(color="0.93")
+    axes.set_xlabel(label)
+    axes.set_xlim(left=0, right=1.35 * max(x for x, _, _ in points))
+
+
+def plot(pyplot, errors, costs):
+    figure, panels = pyplot.subplots(1, 3, figsize=(14, 4.6), sharey=True, layout="constrained")
+    for index, label in enumerate(("bytes a particle", "time to write [ns/particle]", "time to read [ns/particle]")):
+        scatter(panels[index], [(cost[index], errors[way]["position"], way) for way, cost in costs.items()
+                                if index == 0 or "gzip" not in way], label)
+    panels[0].set_ylabel("largest error of positions [smallest radii]")
+    panels[0].text(2, 1.4e-2, "1 % of a radius", fontsize=8, color="0.4")
+    panels[0].text(2, 1.4 * EXACT, "exact", fontsize=8, color="0.4")
+    figure.suptitle("box at 1e3 lengths from the origin", fontsize=10)
+    return figure
 
 
 def study_of(study):
-    far_box_of_liggghts(study)
-    for place, lo in PLACES.items():
-        timed = place == "1e3"
-        packing = Packing(lo, layers=study.pick(4 if timed else 1, 1), lattice=study.pick(63, 8))
-        true = open_dump(packing.write(study.folder / f"true_{place}.dump"))
-        true.Update()
-        data = true.GetOutput()
-        study.check((points_of(data) == packing.points).all(), "reading %.17g")
-        writing, reading, readers = Rounds(), Rounds(), {}
-        for way in ways_of(study, data, place):
-            way.write(*way.prepare())
-            reader = way.reader()
-            try:
-                found = read_again(reader)
-                told = found.GetNumberOfPoints() == packing.rows
-            except AttributeError:
-                told = False
-            if not told and not way.is_dump:
-                continue  # some versions of libexpat refuse what VTK has written raw
-            study.check(told, way.name)
-            readers[way.name] = (way, reader)
-            tell_errors(study, way, place, packing, found)
-            study.tell(f"{way.name}; box at {place}", "size", os.path.getsize(way.path) / packing.rows, "B/particle")
-            if way.name in ("scaled %g", "scaled %.9g") and place != "1e6":  # there, both bounds would be the same
-                liggghts = Way(f"{way.name}, box of LIGGGHTS", way.make_writer, None, way.path.replace(".dump", "_six.dump"))
-                shutil.copy(way.path, liggghts.path)
-                print_box_as_liggghts(liggghts.path, packing)
-                tell_errors(study, liggghts, place, packing, read_again(liggghts.reader()))
-            writing.add(way.name, way.write, way.prepare)
-            reading.add(way.name, lambda reader=reader: read_again(reader))
-        rounds = study.pick(3, 1) if timed else 0
-        writing.run(rounds)
-        reading.run(rounds)
-        for name in readers if timed else ():
-            for verb, times in (("write", writing), ("read", reading)):
-                study.tell(name, f"{verb}", 1e9 * times.time(name) / packing.rows, "ns/particle")
-                study.tell(name, f"{verb} against {BASELINE}", times.ratio(name, BASELINE), "1")
+    measured = {place: measure(study, place) for place in PLACES}
+    errors = {place: each for place, (each, _) in measured.items()}
+    costs = measured["1e3"][1]
+    study.block("decide", decide(errors, costs))
+    rows = [[f"`{way}`", *([f"{cost:.0f}" for cost in costs[way]] if way in costs else [None] * 3),
+             *(scientific(errors[place][way]["position"]) if way in errors[place] else "" for place in PLACES),
+             *(scientific(errors["1e3"][way][metric]) for metric in ("strain", "velocity"))] for way in errors["1e3"]]
+    study.block("store", "A packing of 63,504 particles with radii from 4.7e-3 to 5.3e-3 in a box of length 1, stretched by 5 %; 12 columns: "
+                "id type x y z vx vy vz fx fy fz radius. One thread, processor time, files in the page cache. Bytes, times and the errors of "
+                "strains and velocities are those at 1e3 box lengths. Writers are those of this library and of VTK. An open file is read "
+                "again. Errors are the largest ones.",
+                table(["way", "B/particle", "write ns/particle", "read ns/particle", *(f"position error at {place} [radii]" for place in PLACES),
+                       "strain error", "velocity error [rms velocity]"], rows))
+    study.picture("store", lambda pyplot: plot(pyplot, errors["1e3"], costs))
 
 
 main(study_of)
