@@ -35,8 +35,8 @@ struct Form
   int integers_before;
   int doubles;
   int integers_behind;
-  const char* print;                                 ///< of doubles
-  double (*value)(Random& random, std::int64_t row); ///< of doubles
+  const char* print;                                  ///< of doubles
+  double (*value)(Random& random, bool rests, int k); ///< of double k
 
   int columns() const { return integers_before + doubles + integers_behind; }
   bool is_double(int column) const
@@ -45,25 +45,32 @@ struct Form
   }
 };
 
-double unit(Random& random)
+double between(Random& random, double lo, double hi)
 {
-  return std::uniform_real_distribution<>(-1, 1)(random);
+  return std::uniform_real_distribution<>(lo, hi)(random);
 }
 
-double plain(Random& random, std::int64_t)
+/// Places in a box of 1 m, velocities of 0.1 m/s, forces of 10 mN, radii of 1 to 2 mm.
+double plain(Random& random, bool, int k)
 {
-  return unit(random);
+  if (k < 3)
+  {
+    return between(random, 0, 1);
+  }
+  return k < 9 ? std::normal_distribution<>(0, k < 6 ? 0.06 : 0.006)(random)
+               : between(random, 1e-3, 2e-3);
 }
 
-double at_rest(Random& random, std::int64_t row)
+/// Half of the particles do not move.
+double at_rest(Random& random, bool rests, int k)
 {
-  return row % 2 == 0 ? 0 : unit(random);
+  return rests && k >= 3 && k < 9 ? 0.0 : plain(random, rests, k);
 }
 
 template <int lowest, int highest>
-double any_magnitude(Random& random, std::int64_t)
+double any_magnitude(Random& random, bool, int k)
 {
-  return unit(random) * std::pow(10, std::uniform_int_distribution<>(lowest, highest)(random));
+  return (k % 2 == 0 ? 1 : -1) * std::pow(10, between(random, lowest, highest));
 }
 
 const Form forms[] = {
@@ -77,6 +84,26 @@ const Form forms[] = {
   { "12 columns of integers", 12, 0, 0, "", nullptr },
 };
 
+/// An id in no order, a type, image counts; without doubles, integers of one to ten digits.
+std::int64_t integer(
+  Random& random, const Form& form, std::int64_t row, std::int64_t rows, int column)
+{
+  if (column == 0)
+  {
+    return row * 7919 % rows + 1;
+  }
+  if (column == 1)
+  {
+    return static_cast<std::int64_t>(random() % 3) + 1;
+  }
+  if (form.doubles > 0)
+  {
+    return static_cast<std::int64_t>(random() % 5) - 2;
+  }
+  const auto range = static_cast<std::uint64_t>(std::pow(10, column - 1));
+  return static_cast<std::int64_t>(random() % range) * (column % 3 == 1 ? -1 : 1);
+}
+
 std::string text_of(const Form& form, std::int64_t rows)
 {
   Random random(7);
@@ -84,21 +111,23 @@ std::string text_of(const Form& form, std::int64_t rows)
   char word[64];
   for (std::int64_t row = 0; row < rows; ++row)
   {
+    const bool rests = random() % 2 == 0;
     for (int column = 0; column < form.columns(); ++column)
     {
       if (form.is_double(column))
       {
-        std::snprintf(word, sizeof word, form.print, form.value(random, row));
+        const double value = form.value(random, rests, column - form.integers_before);
+        std::snprintf(word, sizeof word, form.print, value);
       }
       else
       {
-        const std::int64_t value =
-          column == 0 ? row * 7919 % rows + 1 : static_cast<std::int64_t>(random() % 5) - 2;
-        std::snprintf(word, sizeof word, "%lld", static_cast<long long>(value));
+        std::snprintf(word, sizeof word, "%lld",
+          static_cast<long long>(integer(random, form, row, rows, column)));
       }
       text += word;
-      text += column + 1 < form.columns() ? ' ' : '\n';
+      text += ' '; // `dump custom` ends its rows so
     }
+    text += '\n';
   }
   return text;
 }
@@ -136,27 +165,39 @@ struct Work
     return result.status == granular::RowStatus::Done && result.rows == rows;
   }
 
+  template <class T, class Parse>
+  static const char* store(const Parse& parse, const char* first, const char* last, void* to)
+  {
+    T value{};
+    const char* const end = parse(first, last, value);
+    std::memcpy(to, &value, sizeof value);
+    return end;
+  }
+
   /// The yardstick: one pass, and no thought of anything else. parse reads a word into a value and returns its end, or null.
   template <class Parse>
   bool loop(const Parse& parse)
   {
     const char* at = text.data();
     const char* const end = at + text.size();
+    const int first = form.integers_before;
+    const int last = first + form.doubles;
+    const int columns = form.columns();
+    std::int64_t* to = values.data();
     for (std::int64_t row = 0; row < rows; ++row)
     {
-      for (int i = 0; i < form.columns(); ++i)
+      for (int i = 0; i < columns && at; ++i, ++to)
       {
-        while (at < end && (*at == ' ' || *at == '\n'))
+        while (at != end && (*at == ' ' || *at == '\n'))
         {
           ++at;
         }
-        char* const to = this->place(row, i);
-        at = form.is_double(i) ? parse(at, end, *reinterpret_cast<double*>(to))
-                               : parse(at, end, *reinterpret_cast<std::int64_t*>(to));
-        if (!at)
-        {
-          return false;
-        }
+        at = i >= first && i < last ? store<double>(parse, at, end, to)
+                                    : store<std::int64_t>(parse, at, end, to);
+      }
+      if (!at)
+      {
+        return false;
       }
     }
     return true;
