@@ -38,6 +38,37 @@ enum Ports
   BONDS,
   NUMBER_OF_PORTS
 };
+
+// State files of earlier versions may have values that are gone.
+granular::Arrangement ArrangementOf(int value)
+{
+  switch (value)
+  {
+    case vtkGranularPackingSource::RANDOM:
+      return granular::Arrangement::Random;
+    case vtkGranularPackingSource::SIMPLE_CUBIC:
+      return granular::Arrangement::SimpleCubic;
+    case vtkGranularPackingSource::FACE_CENTRED_CUBIC:
+      return granular::Arrangement::FaceCentredCubic;
+    case vtkGranularPackingSource::CHAIN:
+      return granular::Arrangement::Chain;
+    default:
+      throw granular::LimitError("expected the Arrangement 0 (Random), 1 (SimpleCubic), "
+                                 "2 (FaceCentredCubic) or 4 (Chain), got " +
+        std::to_string(value));
+  }
+}
+
+granular::RadiusChoice::Kind KindOf(int value)
+{
+  if (value != vtkGranularPackingSource::ONE && value != vtkGranularPackingSource::TWO)
+  {
+    throw granular::LimitError(
+      "expected the Radii 0 (One) or 1 (Two), got " + std::to_string(value));
+  }
+  return value == vtkGranularPackingSource::ONE ? granular::RadiusChoice::Kind::One
+                                                : granular::RadiusChoice::Kind::Two;
+}
 }
 
 vtkStandardNewMacro(vtkGranularPackingSource);
@@ -97,20 +128,19 @@ granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
   Self* self, vtkInformation* output)
 {
   granular::PackingRequest request;
-  request.arrangement = static_cast<granular::Arrangement>(self->Arrangement);
+  request.arrangement = ArrangementOf(self->Arrangement);
   request.box = this->MakeBox(self);
   std::copy_n(self->BoxOrigin, 3, request.corner.begin());
   constexpr vtkTypeInt64 grainsWithoutBox = 1000;
   request.grains =
     self->NumberOfGrains == 0 && !request.box ? grainsWithoutBox : self->NumberOfGrains;
   request.boundary = this->Boundary;
-  request.radii.kind = static_cast<granular::RadiusChoice::Kind>(self->Radii);
+  request.radii.kind = KindOf(self->Radii);
   request.radii.first = self->Radius;
   request.radii.second = self->SecondRadius;
   request.radii.share = self->SecondShare;
   request.solid_fraction = self->SolidFraction;
   request.spacing = self->Spacing;
-  request.grains_per_fibre = self->GrainsPerFibre;
   request.speed = self->Speed;
   request.seed = static_cast<std::uint64_t>(self->Seed);
   const PieceRequest wanted = PieceRequest::Of(output);
@@ -132,7 +162,7 @@ void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::Packi
   if (bonded)
   {
     part.set_part(0.5, 1);
-    granular::GrainBonds bonds = granular::make_bonds(plan, frame, self->BondFactor, part);
+    granular::GrainBonds bonds = granular::make_bonds(plan, self->BondFactor, part);
     FillBonds(vtkPolyData::GetData(outputs, BONDS), bonds);
   }
   FillParticles(vtkPolyData::GetData(outputs, GRAINS), frame, false, VertexCells::OnePerPoint,
@@ -149,7 +179,6 @@ void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::Packi
 }
 
 //------------------------------------------------------------------------------
-// Collective: an error of one rank is one of all.
 void vtkGranularPackingSource::Internals::Run(
   Self* self, vtkInformation* request, vtkInformationVector* outputs)
 {
@@ -165,7 +194,7 @@ void vtkGranularPackingSource::Internals::Run(
   try
   {
     part.set_part(0, 0.6);
-    const granular::PackingPlan plan(wanted, ranks, part);
+    const granular::PackingPlan plan(wanted, part);
     part.set_part(0.6, 1);
     this->Fill(self, plan, outputs, part);
   }
@@ -242,7 +271,6 @@ void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SecondShare: " << this->SecondShare << "\n";
   os << indent << "SolidFraction: " << this->SolidFraction << "\n";
   os << indent << "Spacing: " << this->Spacing << "\n";
-  os << indent << "GrainsPerFibre: " << this->GrainsPerFibre << "\n";
   os << indent << "BondFactor: " << this->BondFactor << "\n";
   os << indent << "Speed: " << this->Speed << "\n";
   os << indent << "Seed: " << this->Seed << "\n";

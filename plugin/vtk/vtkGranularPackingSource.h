@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularPackingSource
- * @brief   Makes particles that do not overlap, at random positions, on a lattice or in fibres, without a file.
+ * @brief   Makes particles that do not overlap, at random positions, on a lattice or in a chain, without a file.
  *
  * Output port 0 holds the particles (vtkPolyData, one vertex per particle), port 1 the box (vtkUnstructuredGrid, one hexahedron), with
  * the arrays and field data that vtkGranularDumpReader gives for a dump of timestep 0 with the columns id type x y z radius vx vy vz:
- * `id` (vtkTypeInt64Array from 1, and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3). Fibres also have `mol`
- * (vtkTypeInt64Array), their number from 1.
+ * `id` (vtkTypeInt64Array from 1, and the pedigree ids), `type` (vtkTypeInt32Array), `radius`, `v` (3). A chain also has `mol`
+ * (vtkTypeInt64Array), which is 1.
  *
  * Port 2 holds the bonds of BondFactor (vtkPolyData, one line per bond, with two points of its own), from a centre to the nearest image
  * of the other, and the same field data. Cell arrays are `id1` and the greater `id2` (vtkTypeInt64Array), `btype` (vtkTypeInt32Array,
  * 1), `equilibrium_length`, and `length`, which is equal.
  *
  * Particles lie entirely inside the box; along periodic axes only their centres do, and their periodic images do not overlap particles
- * either. Random particles do not touch; particles on lattices and in fibres do at Spacing 1.
+ * either. Random particles do not touch; particles on lattices and in chains do at Spacing 1.
  *
- * Each particle depends only on the properties and its number, so any pieces, threads and ranks give the same ones. Pieces hold equal
+ * Each particle depends only on the properties and its number, so any pieces, threads and ranks give the same ones. Each rank
+ * places all random particles and keeps its own. Pieces hold equal
  * numbers of particles, in the order of their ids, and their bonds to greater ids, in the order of (id1, id2). Only piece 0 has the
  * box.
  */
@@ -47,27 +48,23 @@ public:
     RANDOM = 0,
     SIMPLE_CUBIC = 1,
     FACE_CENTRED_CUBIC = 2,
-    HEXAGONAL = 3,
-    CHAIN = 4,
-    FIBRE_BUNDLE = 5
+    CHAIN = 4
   };
 
   enum RadiiType
   {
     ONE = 0,
-    TWO = 1,
-    RANGE = 2
+    TWO = 1
   };
 
   ///@{
   /**
    * RANDOM, the default; or whole cells of a lattice along the box vectors, in the middle of the box; or a
-   * CHAIN, one straight fibre along the first box vector; or a FIBRE_BUNDLE, such fibres side by side in closest
-   * packing. Fibres begin a radius inside the low face; one that is longer than the box is an error.
-   * NumberOfGrains: 0, the default: as many as the box holds, in that arrangement or at the solid fraction, and 1000
-   * where no box is given.
+   * CHAIN, one straight row of particles along the first box vector, which begins a radius inside the low face; one that
+   * is longer than the box is an error. NumberOfGrains: 0, the default: as many as the box holds, in that arrangement or
+   * at the solid fraction, and 1000 where no box is given; at most 10^7 random particles.
    */
-  vtkSetClampMacro(Arrangement, int, RANDOM, FIBRE_BUNDLE);
+  vtkSetMacro(Arrangement, int);
   vtkGetMacro(Arrangement, int);
   vtkSetMacro(NumberOfGrains, vtkTypeInt64);
   vtkGetMacro(NumberOfGrains, vtkTypeInt64);
@@ -99,10 +96,10 @@ public:
   ///@{
   /**
    * ONE: all particles have Radius. TWO, the default: a share of them, SecondShare, 0 to 1 and 0.3 by default,
-   * has SecondRadius, and type 2. RANGE: evenly from Radius to SecondRadius. Radii are greater than 0,
-   * the larger at most 20 times the smaller; 0.003 and 0.005 by default.
+   * has SecondRadius, and type 2. Radii are greater than 0, the larger at most 20 times the smaller; 0.003 and 0.005 by
+   * default.
    */
-  vtkSetClampMacro(Radii, int, ONE, RANGE);
+  vtkSetMacro(Radii, int);
   vtkGetMacro(Radii, int);
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
@@ -116,20 +113,18 @@ public:
   /**
    * SolidFraction: volume of random particles by that of the box, where not both their number and the box are
    * given; greater than 0, 0.2 by default, and up to about 0.3 particles find their places. Spacing: distance
-   * of nearest neighbours, of lattices and fibres, by the largest diameter; at least 1, the default, where
-   * they touch. GrainsPerFibre: of a FIBRE_BUNDLE, at least 1, 20 by default; the last fibre may have fewer.
+   * of nearest neighbours, of lattices and chains, by the largest diameter; at least 1, the default, where
+   * they touch.
    */
   vtkSetMacro(SolidFraction, double);
   vtkGetMacro(SolidFraction, double);
   vtkSetMacro(Spacing, double);
   vtkGetMacro(Spacing, double);
-  vtkSetMacro(GrainsPerFibre, vtkTypeInt64);
-  vtkGetMacro(GrainsPerFibre, vtkTypeInt64);
   ///@}
 
   /// 0, the default: no bonds. From 1 to 3: bonds between particles whose centres are no farther apart than this times
   /// the sum of their radii, within rounding; through periodic faces, too, but one at most for a pair. In
-  /// fibres it is the consecutive particles of each that are bonded, whatever the factor.
+  /// a chain consecutive particles are bonded, whatever the factor.
   vtkSetMacro(BondFactor, double);
   vtkGetMacro(BondFactor, double);
 
@@ -164,7 +159,6 @@ private:
   double SecondShare = 0.3;
   double SolidFraction = 0.2;
   double Spacing = 1;
-  vtkTypeInt64 GrainsPerFibre = 20;
   double BondFactor = 0;
   double Speed = 0;
   int Seed = 1;

@@ -110,15 +110,13 @@ void add_packings(Lines& lines)
   const Box tilted = Box::from_tilted_bounds({ 0, 0, 0 }, { 13, 12, 11 }, 0.7, -1.3, 1.1);
   for (const bool is_tilted : { false, true })
   {
-    for (const Arrangement arrangement :
-      { Arrangement::Random, Arrangement::SimpleCubic, Arrangement::FaceCentredCubic,
-        Arrangement::Hexagonal, Arrangement::Chain, Arrangement::FibreBundle })
+    for (const Arrangement arrangement : { Arrangement::Random, Arrangement::SimpleCubic,
+           Arrangement::FaceCentredCubic, Arrangement::Chain })
     {
       PackingRequest request;
       request.arrangement = arrangement;
       request.grains = arrangement == Arrangement::Chain ? 9 : 300;
       request.speed = 0.3;
-      request.grains_per_fibre = 8;
       request.radii.first = 0.4375;
       request.spacing = arrangement == Arrangement::Random ? 1 : 1.1;
       if (is_tilted)
@@ -127,15 +125,8 @@ void add_packings(Lines& lines)
         request.boundary = "pp pp pp";
         request.grains = arrangement == Arrangement::Chain ? 9 : 0;
       }
-      const bool bundle =
-        arrangement == Arrangement::Chain || arrangement == Arrangement::FibreBundle;
-      if (is_tilted && bundle)
-      {
-        continue;
-      }
       Progress progress;
-      SerialCommunicator alone;
-      const PackingPlan plan(request, alone, progress);
+      const PackingPlan plan(request, progress);
       const DumpFrame frame = make_packing(plan, progress);
       const std::string name = std::string(is_tilted ? "tilted packing " : "packing ") +
         std::to_string(static_cast<int>(arrangement));
@@ -144,7 +135,7 @@ void add_packings(Lines& lines)
       {
         lines.add(name + " " + array.info.name, array.block.data(), array.block.bytes());
       }
-      const GrainBonds bonds = make_bonds(plan, frame, 1.3, progress);
+      const GrainBonds bonds = make_bonds(plan, 1.3, progress);
       lines.add(name + " lengths of bonds", bonds.equilibrium_length.data(),
         bonds.equilibrium_length.bytes());
       lines.add(name + " bonds", bonds.points.data(), bonds.points.bytes());

@@ -123,11 +123,11 @@ for way in ("MinimumImage", "Split"):
 
 # ---- bonds of a packing, and properties -----------------------------------------------------------------------
 
-packing = GranularPackingSource(Arrangement="FibreBundle", NumberOfGrains=12 * 15, GrainsPerFibre=15, Radii="One",
-                                Radius=0.002, Spacing=1.5, Speed=0, BondFactor=1, Boundary="f f f")
+packing = GranularPackingSource(Arrangement="Chain", NumberOfGrains=15, Radii="One", Radius=0.002, Spacing=1.5, Speed=0,
+                                BondFactor=1, Boundary="f f f")
 granular.save(OutputPort(packing, "Bonds"), "packing.bonds", NumberFormat="shortest")
 written, = plain_local.read("packing.bonds")
-assert written.names == "id1 id2 btype equilibrium_length x1 y1 z1 x2 y2 z2".split() and len(written.rows) == 12 * 14
+assert written.names == "id1 id2 btype equilibrium_length x1 y1 z1 x2 y2 z2".split() and len(written.rows) == 14
 length = numpy.sqrt(((written.stack(["x2", "y2", "z2"]) - written.stack(["x1", "y1", "z1"])) ** 2).sum(axis=1))
 assert numpy.allclose(length, written.column("equilibrium_length"), rtol=1e-12)
 

@@ -41,9 +41,8 @@ struct Bonds
     : grains(request)
   {
     granular::Progress progress;
-    granular::SerialCommunicator alone;
-    const granular::PackingPlan plan(request, alone, progress);
-    const granular::GrainBonds made = granular::make_bonds(plan, grains.frame, factor, progress);
+    const granular::PackingPlan plan(request, progress);
+    const granular::GrainBonds made = granular::make_bonds(plan, factor, progress);
     id1 = values<std::int64_t>(made.id1, made.count);
     id2 = values<std::int64_t>(made.id2, made.count);
     btype = values<std::int32_t>(made.btype, made.count);
@@ -248,13 +247,6 @@ const Case cases[] = {
       r.boundary = "p p p";
       r.radii = two_radii(0.05, 1, 0.02);
     } },
-  { "random, a range", 1.7,
-    [](PackingRequest& r)
-    {
-      r.boundary = "f p f";
-      r.radii = radii_between(0.1, 0.7);
-      r.solid_fraction = 0.15;
-    } },
   { "simple cubic with gaps", 1.5,
     [](PackingRequest& r)
     {
@@ -262,10 +254,10 @@ const Case cases[] = {
       r.spacing = 1.04;
       r.boundary = "p p f";
     } },
-  { "hexagonal, tilted, two sizes", 1.9,
+  { "face-centred cubic, tilted, two sizes", 1.9,
     [](PackingRequest& r)
     {
-      r.arrangement = Arrangement::Hexagonal;
+      r.arrangement = Arrangement::FaceCentredCubic;
       r.grains = 0;
       r.box = tilted_box({ 1, 2, 3 }, { 8, 9, 7 }, { -2, 5, 3 });
       r.boundary = "p p p";
@@ -356,17 +348,14 @@ TEST(PackingBonds, APairHasOneAndAGrainNoneWithItself)
   EXPECT_EQ(two.ends[0][1], two.grains.points[1]);
 }
 
-TEST(PackingBonds, ClosestPackingsHaveSixForEachGrain)
+TEST(PackingBonds, FaceCentredCubicHasSixForEachGrain)
 {
-  const double fcc = std::sqrt(2.0);
+  const double cell = std::sqrt(2.0);
   for (const double factor : { 1.0, 1.05, 1.4 })
   {
     EXPECT_EQ(
-      count_of(Arrangement::FaceCentredCubic, { 3 * fcc, 4 * fcc, 5 * fcc }, "p p p", factor),
+      count_of(Arrangement::FaceCentredCubic, { 3 * cell, 4 * cell, 5 * cell }, "p p p", factor),
       6u * 240);
-    EXPECT_EQ(count_of(Arrangement::Hexagonal, { 4, 3 * std::sqrt(3.0), 3 * std::sqrt(8.0 / 3) },
-                "p p p", factor),
-      6u * 144);
   }
 }
 
@@ -428,25 +417,6 @@ TEST(PackingBonds, OfAChainJoinConsecutiveGrains)
   EXPECT_EQ(Bonds(request, 1).size(), 0u);
 }
 
-TEST(PackingBonds, OfABundleStayInTheirFibre)
-{
-  PackingRequest request;
-  request.arrangement = Arrangement::FibreBundle;
-  request.grains = 7 * 12 + 5;
-  request.grains_per_fibre = 12;
-  request.boundary = "p p p";
-  Bonds bonds(request, 3);
-  expect_sound(bonds);
-  EXPECT_EQ(bonds.size(), 7u * 11 + 4);
-  for (std::size_t i = 0; i < bonds.size(); ++i)
-  {
-    EXPECT_EQ(bonds.id2[i], bonds.id1[i] + 1);
-    EXPECT_EQ((bonds.id1[i] - 1) / 12, (bonds.id2[i] - 1) / 12);
-  }
-  request.grains_per_fibre = 1;
-  EXPECT_EQ(Bonds(request, 1).size(), 0u);
-}
-
 TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
 {
   std::vector<PackingRequest> requests;
@@ -454,18 +424,13 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
   {
     requests.push_back(request_of(each));
   }
-  for (const char* const boundary : { "f f f", "p p p" })
+  PackingRequest many; // several chunks
+  many.grains = 20000;
+  for (const Arrangement arrangement :
+    { Arrangement::Random, Arrangement::SimpleCubic, Arrangement::Chain })
   {
-    PackingRequest many; // several blocks along each axis
-    many.grains = 15000;
-    many.boundary = boundary;
+    many.arrangement = arrangement;
     requests.push_back(many);
-    many.arrangement = Arrangement::Hexagonal;
-    requests.push_back(many);
-    many.arrangement = Arrangement::FibreBundle;
-    requests.push_back(many);
-    many.grains = 89;
-    requests.push_back(many); // the last fibre has nine
   }
   for (PackingRequest& request : requests)
   {
@@ -491,28 +456,6 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
   }
 }
 
-TEST(PackingBonds, OfOneBlockOfManyAreThoseOfTheWhole)
-{
-  PackingRequest request;
-  request.grains = 15000;
-  request.boundary = "p p p";
-  const Bonds whole(request, 3);
-  request.pieces = 200;
-  for (request.piece = 0; request.piece < 200; request.piece += 33)
-  {
-    const Bonds part(request, 3);
-    const auto begin = std::lower_bound(whole.id1.begin(), whole.id1.end(), part.id1[0]);
-    const auto from = static_cast<std::size_t>(begin - whole.id1.begin());
-    ASSERT_LE(from + part.size(), whole.size());
-    EXPECT_TRUE(std::equal(
-      part.id2.begin(), part.id2.end(), whole.id2.begin() + static_cast<std::ptrdiff_t>(from)));
-    EXPECT_TRUE(std::equal(
-      part.ends.begin(), part.ends.end(), whole.ends.begin() + static_cast<std::ptrdiff_t>(from)));
-    EXPECT_TRUE(
-      from + part.size() == whole.size() || whole.id1[from + part.size()] > part.grains.id.back());
-  }
-}
-
 TEST(PackingBonds, ErrorsSayWhatCanBe)
 {
   PackingRequest request;
@@ -524,39 +467,4 @@ TEST(PackingBonds, ErrorsSayWhatCanBe)
       "expected a bond factor from 1 to 3, got " + std::to_string(factor));
   }
   EXPECT_EQ(bonds_error(request, 3), "");
-}
-
-TEST(PackingBonds, ProgressGoesOnAndCanStop)
-{
-  struct Watch : granular::Progress
-  {
-    bool report(double fraction) override
-    {
-      reported.push_back(fraction);
-      return reported.size() != stop_at;
-    }
-    std::vector<double> reported;
-    std::size_t stop_at = 0;
-  };
-  for (const Arrangement arrangement : { Arrangement::Random, Arrangement::FibreBundle })
-  {
-    PackingRequest request;
-    request.arrangement = arrangement;
-    request.grains = 20000;
-    const Grains grains(request);
-    granular::Progress progress;
-    granular::SerialCommunicator alone;
-    const granular::PackingPlan plan(request, alone, progress);
-    Watch whole;
-    granular::make_bonds(plan, grains.frame, 1.5, whole);
-    EXPECT_TRUE(std::is_sorted(whole.reported.begin(), whole.reported.end()));
-    EXPECT_EQ(whole.reported.front(), 0);
-    EXPECT_EQ(whole.reported.back(), 1);
-    for (std::size_t at = 1; at <= whole.reported.size(); ++at)
-    {
-      Watch stopped;
-      stopped.stop_at = at;
-      EXPECT_THROW(granular::make_bonds(plan, grains.frame, 1.5, stopped), granular::Cancelled);
-    }
-  }
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains on lattices: counts and places from arithmetic, distances from a look at all pairs.
+// Lattices and chains: counts and places from arithmetic, and no overlap: squares of distances against squares of sums of
+// radii, in 113 bits, which hold differences and squares of the doubles here.
 #include "../support/hard_case.h"
 #include "../support/packings.h"
-
 #include "../support/quad.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <set>
 
 namespace
@@ -17,87 +19,62 @@ using granular::Arrangement;
 using granular::PackingRequest;
 using granular::Vector3;
 
-constexpr Arrangement lattices[] = { Arrangement::SimpleCubic, Arrangement::FaceCentredCubic,
-  Arrangement::Hexagonal };
+constexpr Arrangement arrangements[] = { Arrangement::SimpleCubic, Arrangement::FaceCentredCubic,
+  Arrangement::Chain };
 
-PackingRequest on(Arrangement arrangement, const granular::Box& box, const std::string& boundary)
+PackingRequest on(Arrangement arrangement, const granular::Box& box, const std::string& boundary,
+  double radius = 0.5)
 {
   PackingRequest request;
   request.arrangement = arrangement;
   request.box = box;
   request.boundary = boundary;
-  request.radii = one_radius(0.5);
+  request.radii = one_radius(radius);
   return request;
 }
 
-/// Grains that touch any other, by how many they touch.
-std::multiset<int> contacts(const Grains& grains)
+/// By how much the nearest two overlap, their periodic images among them, in diameters: 0 where none do.
+double overlap_of(const Grains& grains)
 {
-  std::multiset<int> counts;
-  for (std::size_t i = 0; i < grains.size(); ++i)
-  {
-    int count = 0;
-    for (std::size_t j = 0; j < grains.size(); ++j)
-    {
-      double square = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        // orthogonal boxes: the nearest image
-        const double length = grains.vectors[k][k];
-        const double away = grains.points[i][k] - grains.points[j][k];
-        square += std::pow(away - length * std::round(away / length), 2);
-      }
-      count += i != j && std::abs(std::sqrt(square) - 1) < 1e-9 ? 1 : 0;
-    }
-    counts.insert(count);
-  }
-  return counts;
-}
-}
-
-namespace
-{
-/// The square of the distance of a grain and an image of another one.
-template <class Float>
-Float square_of(const Grains& grains, std::size_t i, std::size_t j, const std::array<int, 3>& image)
-{
-  Float square = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    Float away = static_cast<Float>(grains.points[i][axis]) - grains.points[j][axis];
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      away += image[k] * static_cast<Float>(grains.vectors[k][axis]);
-    }
-    square += away * away;
-  }
-  return square;
-}
-
-/// How much farther apart the nearest two grains of radius 0.5 or images are than 1, by arithmetic of 113 bits.
-double least_excess(const Grains& grains)
-{
-  Quad least = 2;
+  const granular::Box& box = grains.frame.header.box;
+  Quad worst = 0;
   for (int n = 0; n < 27; ++n)
   {
     const std::array<int, 3> image = { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 };
     bool there = true;
+    std::array<Quad, 3> shift = {};
     for (std::size_t k = 0; k < 3; ++k)
     {
-      there = there && (image[k] == 0 || grains.frame.header.box.boundary[3 * k] == 'p');
+      there = there && (image[k] == 0 || box.boundary[3 * k] == 'p');
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const granular::Twofold edge = box.vectors[k][axis];
+        shift[axis] += image[k] * (static_cast<Quad>(edge.hi) + edge.lo);
+      }
     }
     for (std::size_t i = 0; there && i < grains.size(); ++i)
     {
-      for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t j = 0; j <= i; ++j)
       {
-        if (square_of<double>(grains, i, j, image) < 1.1)
+        const double sum = grains.radius[i] + grains.radius[j];
+        double rough = 0;
+        Quad square = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          least = std::min(least, square_of<Quad>(grains, i, j, image));
+          const Quad away =
+            static_cast<Quad>(grains.points[i][axis]) - grains.points[j][axis] + shift[axis];
+          rough += static_cast<double>(away) * static_cast<double>(away);
+          square += away * away;
+        }
+        if ((i != j || n != 13) && rough < 1.1 * sum * sum)
+        {
+          const Quad least = static_cast<Quad>(grains.radius[i]) + grains.radius[j];
+          worst = std::max(worst, (least * least - square) / (2 * least * least));
         }
       }
     }
   }
-  return static_cast<double>((least - 1) / 2);
+  return static_cast<double>(worst);
 }
 }
 
@@ -125,26 +102,15 @@ TEST(PackingLattice, SimpleCubicFillsABoxFromWallToWall)
   EXPECT_EQ(grains.frame.header.box.boundary, "ff ff ff");
 }
 
-// cells of FCC are sqrt(2) wide, of HCP 1 x sqrt(3) x sqrt(8/3); four grains each
-TEST(PackingLattice, ClosestPackingsHaveTwelveNeighboursAndTheirDensity)
+// Cells are sqrt(2) wide, with four particles each.
+TEST(PackingLattice, FaceCentredCubicIsAClosestPacking)
 {
-  const double fcc = std::sqrt(2.0);
-  const struct
-  {
-    Arrangement arrangement;
-    Vector3 lengths;
-    std::size_t grains;
-  } cases[] = { { Arrangement::FaceCentredCubic, { 3 * fcc, 4 * fcc, 5 * fcc }, 240 },
-    { Arrangement::Hexagonal, { 4, 3 * std::sqrt(3.0), 3 * std::sqrt(8.0 / 3) }, 144 } };
-  for (const auto& each : cases)
-  {
-    const Grains grains(on(each.arrangement, tilted_box({}, each.lengths), "p p p"));
-    ASSERT_EQ(grains.size(), each.grains);
-    EXPECT_NEAR(grains.solid_fraction(), std::acos(-1.0) / std::sqrt(18.0), 1e-12);
-    EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
-    const std::multiset<int> neighbours = contacts(grains);
-    EXPECT_EQ(neighbours.count(12), grains.size());
-  }
+  const double cell = std::sqrt(2.0);
+  const Grains grains(
+    on(Arrangement::FaceCentredCubic, tilted_box({}, { 3 * cell, 4 * cell, 5 * cell }), "p p p"));
+  ASSERT_EQ(grains.size(), 240u);
+  EXPECT_NEAR(grains.solid_fraction(), std::acos(-1.0) / std::sqrt(18.0), 1e-12);
+  EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
 }
 
 TEST(PackingLattice, PeriodicCellsAreStretchedToTheBox)
@@ -157,95 +123,113 @@ TEST(PackingLattice, PeriodicCellsAreStretchedToTheBox)
   EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
 }
 
-TEST(PackingLattice, SpacingIsTheDistanceOfNeighbours)
+TEST(PackingLattice, SpacingIsTheDistanceOfNeighboursInAnyBox)
 {
-  for (const Arrangement arrangement : lattices)
-  {
-    PackingRequest request = on(arrangement, tilted_box({}, { 9, 9, 9 }), "f f f");
-    request.spacing = 1.25;
-    EXPECT_NEAR(Grains(request).least_gap(), 0.25, 1e-12);
-  }
-}
-
-TEST(PackingLattice, NoneOverlapInTiltedBoxes)
-{
-  const Vector3 tilts[] = { { 2, 0, 0 }, { 0, -3, 1 }, { 4, 4, 4 }, { -11, 7, 13 } };
+  const Vector3 tilts[] = { { 0, 0, 0 }, { 2, 0, 0 }, { 4, 4, 4 }, { -11, 7, 13 } };
   for (const Vector3& tilt : tilts)
   {
-    for (const Arrangement arrangement : lattices)
+    for (const Arrangement arrangement : arrangements)
     {
       for (const char* const boundary : { "p p p", "f f f", "p f p", "m s p" })
       {
         PackingRequest request =
-          on(arrangement, tilted_box({ -3, 0, 9 }, { 9, 11, 8 }, tilt), boundary);
+          on(arrangement, tilted_box({ -3, 0, 9 }, { 19, 11, 8 }, tilt), boundary);
         request.spacing = 1.01;
         const Grains grains(request);
-        EXPECT_GT(grains.size(), 30u);
-        EXPECT_GT(grains.least_gap(), 0.01 - 1e-11) << boundary << " " << tilt[0];
+        EXPECT_GT(grains.size(), 6u);
+        EXPECT_GT(grains.least_gap(), arrangement == Arrangement::Chain ? -1e-11 : 0.01 - 1e-11)
+          << boundary << " " << tilt[0];
         EXPECT_GT(grains.least_inside(), -1e-12) << boundary << " " << tilt[0];
       }
     }
   }
 }
 
-// Hexagonal cells in the first of these boxes were once 4e-12 of a diameter too near.
-TEST(PackingLattice, NoneOverlapInTiltedBoxesToTheLastBit)
+TEST(PackingLattice, NoneOverlapToTheLastBit)
 {
-  std::vector<PackingRequest> requests = {
-    on(Arrangement::Hexagonal, tilted_box({}, { 10, 10, 10 }, { -0.1, 1.2, -1 }), "p p f"),
-  };
+  HardCase hard("packings",
+    "lattices and chains in boxes that hold them exactly or with room, straight or tilted, up to "
+    "2e6 away, in 113 bits: overlap of the nearest two",
+    "diameters", 0);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (std::size_t i = 0; i < 120; ++i)
+  {
+    const double radius = i % 5 < 2 ? 0.5 : i % 5 < 4 ? 0.1 : 0.05 + part(random);
+    const double far = i % 7 < 4 ? 0 : std::array{ 0.1, 1e3, 1e6 }[i % 7 - 4];
+    Vector3 lengths;
+    for (double& length : lengths)
+    {
+      // whole numbers of diameters, but for the last bits, or any length
+      const double diameters = 4 + std::floor(2 * part(random));
+      length = 2 * radius * (i % 2 == 0 ? diameters : diameters + part(random));
+    }
+    const Vector3 tilts = { radius * part(random), -radius * part(random), 0.5 * radius };
+    const Grains grains(on(arrangements[i % 3],
+      tilted_box({ far, -far, 2 * far }, lengths, i % 4 == 3 ? tilts : Vector3{}),
+      std::array{ "f f f", "p p p", "p f p", "f p f" }[i / 3 % 4], radius));
+    hard.add(overlap_of(grains), static_cast<std::int64_t>(grains.size()));
+    for (const double made : grains.radius)
+    {
+      EXPECT_LE(made, radius);
+      EXPECT_GT(made, radius * (1 - 1e-13) - 1e-14 * far);
+    }
+    EXPECT_GT(grains.least_inside(), -1e-12 * (1 + far));
+  }
   for (int i = 0; i < 60; ++i)
   {
     const double turn = 0.37 * i;
     const double far = i % 3 == 2 ? 1e6 : 0;
-    requests.push_back(on(lattices[i % 3],
+    const Grains grains(on(arrangements[i % 2],
       tilted_box({ far, -far, 2 * far }, { 6.2 + std::sin(turn), 7.3 - std::cos(3 * turn), 6.5 },
         { 2 * std::sin(2 * turn), 1.7 * std::cos(turn), -1.1 * std::sin(5 * turn) }),
-      i % 2 == 0 ? "p p f" : "f f f"));
-  }
-  HardCase hard("packings",
-    "lattices in tilted boxes, up to 2e6 away, in 113 bits: overlap of the nearest two",
-    "diameters", 0);
-  for (const PackingRequest& request : requests)
-  {
-    const Grains grains(request);
+      i % 4 < 2 ? "p p f" : "f f f"));
     EXPECT_GT(grains.size(), 60u);
-    const double excess = least_excess(grains);
-    hard.add(std::max(0.0, -excess), static_cast<std::int64_t>(grains.size()));
-    EXPECT_GE(excess, 0) << grains.vectors[2][0];
+    hard.add(overlap_of(grains), static_cast<std::int64_t>(grains.size()));
   }
 }
 
-/// Boxes that the old way filled as well, found by hand: two cells, next to no room to stretch them.
-TEST(PackingLattice, SmallTiltedBoxesHoldWhatFits)
+/// A box with room along x and z, and none along y. 128 pairs once overlapped by 1e-16.
+TEST(PackingLattice, ABoxThatIsTightAlongOneAxis)
 {
-  const PackingRequest requests[] = {
-    on(Arrangement::FaceCentredCubic, tilted_box({}, { 5, 2, 2.5 }, { 1.3, 0.5, -0.4 }), "f f f"),
-    on(Arrangement::Hexagonal, tilted_box({}, { 4, 3.5, 2 }, { -0.6, -1.2, 0.1 }), "f f f"),
-    on(Arrangement::Hexagonal, tilted_box({}, { 5, 2.5, 3.5 }, { 1.5, 2.3, -1.1 }), "p p f"),
-  };
-  for (const PackingRequest& request : requests)
-  {
-    const Grains grains(request);
-    EXPECT_EQ(grains.size(), 8u);
-    EXPECT_GE(least_excess(grains), 0);
-  }
+  const Grains grains(on(Arrangement::SimpleCubic,
+    tilted_box({}, { 6.785606236300253, 10, 8.283244719637754 }), "f f f"));
+  EXPECT_EQ(grains.size(), 6u * 10 * 8);
+  EXPECT_EQ(overlap_of(grains), 0);
+  EXPECT_EQ(grains.radius[0], 0.5);
+  EXPECT_EQ(grains.points[0][1], 0.5);
 }
 
-/// A pair along a 3-4-5 triangle across two periodic axes is 1 apart until a cell fewer fits.
-TEST(PackingLattice, ADistanceThatRoundingAloneMakesTooShortEnds)
+/// Two cells, next to no room to stretch them; and a pair along a 3-4-5 triangle across two periodic axes, which is 1 apart
+/// until a cell fewer fits.
+TEST(PackingLattice, TiltedBoxesHoldWhatFits)
 {
-  const Grains grains(
+  const Grains small(
+    on(Arrangement::FaceCentredCubic, tilted_box({}, { 5, 2, 2.5 }, { 1.3, 0.5, -0.4 }), "f f f"));
+  EXPECT_EQ(small.size(), 8u);
+  EXPECT_EQ(overlap_of(small), 0);
+  const Grains exact(
     on(Arrangement::FaceCentredCubic, tilted_box({}, { 10, 8, 6 }, { 4, 3.1, -2.4 }), "p p f"));
-  EXPECT_GT(grains.size(), 200u);
-  EXPECT_GE(least_excess(grains), 0);
+  EXPECT_GT(exact.size(), 200u);
+  EXPECT_EQ(overlap_of(exact), 0);
 }
 
+/// Straight boxes hold as many as arithmetic says, also where the last bits of the length are missing.
+TEST(PackingLattice, AsManyAsFit)
+{
+  PackingRequest request =
+    on(Arrangement::SimpleCubic, tilted_box({ 0.3, 0, 0 }, { 1, 0.6, 0.8 }), "f p f", 0.1);
+  EXPECT_EQ(Grains(request).size(), 5u * 3 * 4);
+  request.arrangement = Arrangement::Chain;
+  EXPECT_EQ(Grains(request).size(), 5u);
+}
+
+/// Boxes that are made leave the room that rounding takes: radii are those asked for.
 TEST(PackingLattice, ABoxIsMadeForANumber)
 {
-  for (const Arrangement arrangement : lattices)
+  for (const Arrangement arrangement : arrangements)
   {
-    for (const std::int64_t number : { 1, 2, 7, 100, 1000, 1001 })
+    for (const std::int64_t number : { 2, 7, 60 })
     {
       for (const char* const boundary : { "p p p", "f f f", "p f p" })
       {
@@ -254,14 +238,15 @@ TEST(PackingLattice, ABoxIsMadeForANumber)
         request.grains = number;
         request.radii = one_radius(0.3);
         request.boundary = boundary;
+        request.corner = { 0.1, -3, 1e3 };
         const Grains grains(request);
         ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
         EXPECT_EQ(grains.frame.header.rows, number);
-        EXPECT_GT(grains.least_gap(), -1e-12);
+        EXPECT_EQ(overlap_of(grains), 0);
         EXPECT_GT(grains.least_inside(), -1e-12);
-        const auto [least, most] =
-          std::minmax_element(grains.heights.begin(), grains.heights.end());
-        EXPECT_LT(*most / *least, 3);
+        EXPECT_EQ(*std::ranges::min_element(grains.radius), 0.3);
+        const auto [least, most] = std::ranges::minmax(grains.heights);
+        EXPECT_TRUE(arrangement == Arrangement::Chain || most / least < 3);
       }
     }
   }
@@ -280,12 +265,6 @@ TEST(PackingLattice, TheLargestOfSeveralRadiiSetsTheDistance)
     EXPECT_EQ(two.type[i], two.radius[i] == 0.5 ? 2 : 1);
   }
   EXPECT_NEAR(two.least_gap(), 0, 1e-12);
-  request.radii = radii_between(0.5, 0.1);
-  const Grains range(request);
-  const auto [least, most] = std::minmax_element(range.radius.begin(), range.radius.end());
-  EXPECT_NEAR(*least, 0.1 + 0.4 / 1000, 1e-12); // the middles of 500 equal parts
-  EXPECT_NEAR(*most, 0.5 - 0.4 / 1000, 1e-12);
-  EXPECT_GT(range.least_gap(), -1e-12);
 }
 
 TEST(PackingLattice, FewerThanTheBoxHoldsFillItFromBelow)
@@ -296,4 +275,30 @@ TEST(PackingLattice, FewerThanTheBoxHoldsFillItFromBelow)
   ASSERT_EQ(grains.size(), 18u);
   EXPECT_EQ(grains.points[15][2], 0.5);
   EXPECT_EQ(grains.points[17], (Vector3{ 1.5, 0.5, 1.5 }));
+}
+
+TEST(PackingLattice, AChainBeginsARadiusInsideAndIsInTheMiddle)
+{
+  PackingRequest request = on(Arrangement::Chain, tilted_box({ 1, 2, 3 }, { 12, 4, 6 }), "f f f");
+  request.grains = 7;
+  request.spacing = 1.25;
+  const Grains grains(request);
+  ASSERT_EQ(grains.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i)
+  {
+    EXPECT_NEAR(grains.points[i][0], 1.5 + 1.25 * static_cast<double>(i), 1e-13);
+    EXPECT_NEAR(grains.points[i][1], 4, 1e-13);
+    EXPECT_NEAR(grains.points[i][2], 6, 1e-13);
+  }
+  EXPECT_EQ(grains.frame.schema.text(), "id type mol x y z radius vx vy vz");
+}
+
+TEST(PackingLattice, AChainHasAsManyAsTheBoxHolds)
+{
+  PackingRequest request = on(Arrangement::Chain, tilted_box({}, { 12, 4, 6 }), "f f f");
+  EXPECT_EQ(Grains(request).size(), 12u);
+  request.boundary = "p p p";
+  EXPECT_EQ(Grains(request).size(), 12u);
+  request.spacing = 1.1; // 11 / 1.1 gaps
+  EXPECT_EQ(Grains(request).size(), 11u);
 }

@@ -42,14 +42,7 @@ const Part parts[] = {
   { "simple cubic", [](PackingRequest& r) { r.arrangement = Arrangement::SimpleCubic; } },
   { "face-centred cubic",
     [](PackingRequest& r) { r.arrangement = Arrangement::FaceCentredCubic; } },
-  { "hexagonal, a range",
-    [](PackingRequest& request)
-    {
-      request.arrangement = Arrangement::Hexagonal;
-      request.radii = radii_between(0.1, 0.4);
-    } },
   { "chain", [](PackingRequest& r) { r.arrangement = Arrangement::Chain; } },
-  { "bundle", [](PackingRequest& r) { r.arrangement = Arrangement::FibreBundle; } },
 };
 
 PackingRequest request_of(const Part& part)

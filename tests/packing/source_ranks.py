@@ -34,11 +34,10 @@ def bonds_of(data):
 
 
 for properties in ({"NumberOfGrains": 1000, "Speed": 1.0, "BoxLengths": (0.1, 0.1, 0.1)},
-                   {"NumberOfGrains": 20000, "Boundary": "p p p", "Radii": 2},
-                   {"NumberOfGrains": 5000, "Arrangement": 3, "Seed": 7},
+                   {"NumberOfGrains": 20000, "Boundary": "p p p", "Radii": 0},
+                   {"NumberOfGrains": 5000, "Arrangement": 2, "Seed": 7},
                    {"NumberOfGrains": 30000, "Boundary": "p p p", "BondFactor": 1.5},
                    {"NumberOfGrains": 8000, "Arrangement": 1, "BondFactor": 1.1},
-                   {"NumberOfGrains": 1000, "Arrangement": 5, "BondFactor": 1.0},
                    {"NumberOfGrains": 10, "Arrangement": 4, "BondFactor": 1.0},
                    {"NumberOfGrains": 2}):
     source = GranularPackingSource(**properties)

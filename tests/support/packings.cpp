@@ -194,11 +194,6 @@ granular::RadiusChoice two_radii(double first, double second, double share)
   return { granular::RadiusChoice::Kind::Two, first, second, share };
 }
 
-granular::RadiusChoice radii_between(double first, double second)
-{
-  return { granular::RadiusChoice::Kind::Range, first, second, 0 };
-}
-
 std::string error_of(const granular::PackingRequest& request)
 {
   try

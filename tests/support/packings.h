@@ -53,7 +53,6 @@ granular::Box tilted_box(const granular::Vector3& origin, const granular::Vector
 
 granular::RadiusChoice one_radius(double radius);
 granular::RadiusChoice two_radii(double first, double second, double share);
-granular::RadiusChoice radii_between(double first, double second);
 
 /// The text of the error that a request ends with, or "".
 std::string error_of(const granular::PackingRequest& request);

@@ -4,8 +4,7 @@
 
 #include "granular/common/progress.h"
 #include "granular/memory/block.h"
-#include "granular/packing/packing.h"
-#include "granular/particles/dump_frame.h"
+#include "granular/packing/packing_plan.h"
 
 #include <cstdint>
 
@@ -24,17 +23,15 @@ struct GrainBonds
   Block points; ///< 2 x 3 doubles a bond: the centre of id1, and id2's image nearest to it, rounded
 };
 
-/// Bonds the particles that make_packing made for a plan; not collective. In chains and bundles consecutive particles of a
-/// fibre are bonded, for any factor. In other arrangements all pairs are bonded whose centres are no farther apart than the
-/// factor, 1 to 3, times the sum of the radii, within rounding: at 1, the neighbours of a lattice of spacing 1. Periodic
-/// images count, and of several images of a pair the nearest, so a pair has at most one bond, and a particle none with
-/// itself; among equally near images the one moved by fewer box vectors counts.
+/// Bonds the particles of a plan; not collective. In a chain consecutive particles are bonded, for any factor. In other
+/// arrangements all pairs are bonded whose centres are no farther apart than the factor, 1 to 3, times the sum of the radii,
+/// within rounding: at 1, the neighbours of a lattice of spacing 1. Periodic images count, and of several images of a pair the
+/// nearest, so a pair has at most one bond, and a particle none with itself; among equally near images the one moved by fewer
+/// box vectors counts.
 ///
 /// A bond belongs to the piece of its lower id; the piece holds all its bonds, and pieces and threads change nothing else.
-/// With several pieces, a rank makes the particles of the layers around its piece once more.
 ///
-/// Throws LimitError for other factors, and the errors of make_packing; Cancelled; std::bad_alloc.
-GrainBonds make_bonds(
-  const PackingPlan& plan, const DumpFrame& grains, double factor, Progress& progress);
+/// Throws LimitError for other factors; Cancelled; std::bad_alloc.
+GrainBonds make_bonds(const PackingPlan& plan, double factor, Progress& progress);
 }
 #endif

@@ -37,6 +37,8 @@ BoxShape::BoxShape(const Box& box)
   {
     const Vector3 face = cross(vectors[(axis + 1) % 3], vectors[(axis + 2) % 3]);
     heights[axis] = volume / std::sqrt(dot(face, face));
+    const double towards = dot(face, vectors[axis]);
+    faces[axis] = { face[0] / towards, face[1] / towards, face[2] / towards };
     double least = origin[axis];
     double most = origin[axis];
     for (const Vector3& vector : vectors)
@@ -77,22 +79,6 @@ bool BoxShape::adds(std::initializer_list<double> numbers) const noexcept
   const double unit = std::ldexp(std::numeric_limits<double>::epsilon(), std::ilogb(reach));
   return aligned &&
     std::ranges::all_of(numbers, [unit](double number) { return std::fmod(number, unit) == 0; });
-}
-
-Vector3 count_cells(const Vector3& widths, double radius, std::int64_t grains) noexcept
-{
-  const double most = 2 * static_cast<double>(grains) + 64;
-  Vector3 cells;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    cells[axis] = std::clamp(std::floor(widths[axis] / (2 * radius)), 1.0, most);
-  }
-  while (cells[0] * cells[1] * cells[2] > most)
-  {
-    double& longest = *std::max_element(cells.begin(), cells.end());
-    longest = std::max(1.0, std::floor(longest * 0.9));
-  }
-  return cells;
 }
 
 std::string checked_boundary(const std::string& boundary)

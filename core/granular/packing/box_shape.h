@@ -19,6 +19,8 @@ struct BoxShape
   Vector3 origin;
   std::array<Vector3, 3> vectors;
   std::array<bool, 3> periodic;
+  std::array<Vector3, 3>
+    faces;         ///< products with a position from the origin are its scaled coordinates
   Vector3 heights; ///< distance of the two faces that a vector leads between
   double volume = 0;
   double reach = 0; ///< the largest magnitude of a coordinate of a corner
@@ -44,10 +46,13 @@ struct BoxShape
     }
     return sum;
   }
-};
 
-/// Returns how many cells of two radii fit into the widths, but not many more than there are particles.
-Vector3 count_cells(const Vector3& widths, double radius, std::int64_t grains) noexcept;
+  /// Returns the scaled coordinates of a position from the origin.
+  Vector3 scaled(const Vector3& edge) const noexcept
+  {
+    return { dot(edge, faces[0]), dot(edge, faces[1]), dot(edge, faces[2]) };
+  }
+};
 
 /// Returns "pp ff fs" from that or from "p f fs": three words of one or two of the letters p (periodic), f, s and m; p is
 /// never combined with another. Throws LimitError.

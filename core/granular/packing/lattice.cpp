@@ -12,25 +12,16 @@ namespace granular
 {
 namespace
 {
-constexpr Vector3 simple_grains[] = { { 0, 0, 0 } };
+constexpr Vector3 simple_particles[] = { { 0, 0, 0 } };
 
-constexpr Vector3 face_centred_grains[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 0, 0.5 },
+constexpr Vector3 face_centred_particles[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 0, 0.5 },
   { 0, 0.5, 0.5 } };
 
-constexpr Vector3 hexagonal_grains[] = { { 0, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 5.0 / 6, 0.5 },
-  { 0, 1.0 / 3, 0.5 } };
-
-constexpr Vector3 fibre_grains[] = { { 0, 0, 0 }, { 0, 0.5, 0.5 } };
-
 constexpr double root_2 = 1.4142135623730951;
-constexpr double root_3 = 1.7320508075688772;
-constexpr double root_8_thirds = 1.6329931618554521;
 
 constexpr LatticeCell cell_table[] = {
-  { "simple cubic lattice", { 1, 1, 1 }, simple_grains },
-  { "face-centred cubic lattice", { root_2, root_2, root_2 }, face_centred_grains },
-  { "hexagonal lattice", { 1, root_3, root_8_thirds }, hexagonal_grains },
-  { "fibre bundle", { 1, 1, root_3 }, fibre_grains, true },
+  { "simple cubic lattice", 1, simple_particles, 0 },
+  { "face-centred cubic lattice", root_2, face_centred_particles, 0.5 },
 };
 
 const LatticeCell& cell_of(LatticeKind kind)
@@ -42,25 +33,13 @@ const LatticeCell& cell_of(LatticeKind kind)
 /// rounded.
 constexpr double tolerance = 32 * std::numeric_limits<double>::epsilon();
 
-/// Of all grains of a cell the largest coordinate.
-double last_place(const LatticeCell& cell, std::size_t axis)
-{
-  double last = 0;
-  for (const Vector3& grain : cell.grains)
-  {
-    last = std::max(last, grain[axis]);
-  }
-  return last;
-}
-
 /// How many cells of a length fit into a height; limited, so that the numbers of three axes multiply.
-std::int64_t count_cells(const LatticeCell& cell, std::size_t axis, double height, bool periodic,
-  double length, double radius)
+std::int64_t count_cells(
+  const LatticeCell& cell, double height, bool periodic, double length, double radius)
 {
   constexpr double most = 1 << 20;
-  const double fit = periodic
-    ? height / length
-    : (height - 2 * radius - last_place(cell, axis) * length) / length + 1;
+  const double fit =
+    periodic ? height / length : (height - 2 * radius - cell.last * length) / length + 1;
   const double cells = std::floor(fit + tolerance * (1 + height / length));
   return static_cast<std::int64_t>(std::clamp(cells, 0.0, most));
 }
@@ -107,8 +86,8 @@ std::array<std::int64_t, 3> Lattice::cells_for(
   std::array<std::int64_t, 3> cells;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cells[axis] = count_cells(
-      cell_, axis, box.heights[axis], box.periodic[axis], cell_.lengths[axis] * length, radius);
+    cells[axis] =
+      count_cells(cell_, box.heights[axis], box.periodic[axis], cell_.length * length, radius);
   }
   return cells;
 }
@@ -118,13 +97,13 @@ void Lattice::lay(const BoxShape& box, double length, double radius)
   cells_ = this->cells_for(box, length, radius);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double cell = cell_.lengths[axis] * length;
+    const double cell = cell_.length * length;
     if (cells_[axis] == 0)
     {
       throw LimitError(std::string("expected a box that holds a cell of the ") + cell_.name +
         ", got one of height " + std::to_string(box.heights[axis]) + " along vector " +
         std::to_string(axis + 1) + ", where a cell needs " +
-        std::to_string(box.periodic[axis] ? cell : last_place(cell_, axis) * cell + 2 * radius));
+        std::to_string(box.periodic[axis] ? cell : cell_.last * cell + 2 * radius));
     }
     this->lay_axis(box, axis, length);
   }
@@ -133,8 +112,8 @@ void Lattice::lay(const BoxShape& box, double length, double radius)
 void Lattice::lay_axis(const BoxShape& box, std::size_t axis, double length)
 {
   const auto count = static_cast<double>(cells_[axis]);
-  step_[axis] = box.periodic[axis] ? 1 / count : cell_.lengths[axis] * length / box.heights[axis];
-  first_[axis] = (1 - (count - 1 + last_place(cell_, axis)) * step_[axis]) / 2;
+  step_[axis] = box.periodic[axis] ? 1 / count : cell_.length * length / box.heights[axis];
+  first_[axis] = (1 - (count - 1 + cell_.last) * step_[axis]) / 2;
 }
 
 /// Lays larger cells along the axes that have room for as many of them.
@@ -159,7 +138,7 @@ void Lattice::settle(const BoxShape& box, double distance, double clear)
     return;
   }
   std::array<bool, 3> exact = {};
-  bool all = cell_.grains.size() == 1; // neighbours are along the axes, and others far away
+  bool all = cell_.particles.size() == 1; // neighbours are along the axes, and others far away
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     exact[axis] = step_[axis] * box.heights[axis] < clear;
@@ -194,9 +173,9 @@ double Lattice::lay(const BoxShape& box, double length, double radius, double cl
 double Lattice::nearest(const BoxShape& box, double enough) const noexcept
 {
   double least = enough * enough;
-  for (const Vector3& from : cell_.grains)
+  for (const Vector3& from : cell_.particles)
   {
-    for (const Vector3& to : cell_.grains)
+    for (const Vector3& to : cell_.particles)
     {
       for (int neighbour = 0; neighbour < 125; ++neighbour)
       {
@@ -214,24 +193,29 @@ double Lattice::nearest(const BoxShape& box, double enough) const noexcept
 
 std::int64_t Lattice::capacity() const noexcept
 {
-  return cells_[0] * cells_[1] * cells_[2] * static_cast<std::int64_t>(cell_.grains.size());
+  return cells_[0] * cells_[1] * cells_[2] * static_cast<std::int64_t>(cell_.particles.size());
 }
 
 std::array<std::int64_t, 3> Lattice::place_of(std::int64_t row) const noexcept
 {
-  const std::int64_t cell = row / static_cast<std::int64_t>(cell_.grains.size());
+  const std::int64_t cell = row / static_cast<std::int64_t>(cell_.particles.size());
   const std::int64_t line = cell / cells_[0];
   return { cell % cells_[0], line % cells_[1], line / cells_[1] };
+}
+
+const Vector3& Lattice::part_of(std::int64_t row) const noexcept
+{
+  return cell_.particles[static_cast<std::size_t>(row) % cell_.particles.size()];
 }
 
 Vector3 Lattice::scaled(std::int64_t row) const noexcept
 {
   const std::array<std::int64_t, 3> index = this->place_of(row);
-  const Vector3& grain = cell_.grains[static_cast<std::size_t>(row) % cell_.grains.size()];
+  const Vector3& part = this->part_of(row);
   Vector3 place;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    place[axis] = first_[axis] + (static_cast<double>(index[axis]) + grain[axis]) * step_[axis];
+    place[axis] = first_[axis] + (static_cast<double>(index[axis]) + part[axis]) * step_[axis];
   }
   return place;
 }
@@ -252,52 +236,79 @@ Vector3 Lattice::point(std::int64_t row, const BoxShape& box) const noexcept
   return point;
 }
 
-std::vector<RowRange> Lattice::rows_near(
-  const RowRange& rows, const BoxShape& box, double distance) const
+void Lattice::visit_near(
+  std::int64_t row, const BoxShape& box, double distance, const VisitNear& visit) const
 {
-  const std::int64_t layer = this->capacity() / cells_[2];
-  const std::int64_t low = rows.first / layer;
-  const std::int64_t high = (rows.last - 1) / layer;
-  // a grain is less than a cell above the bottom of its own
-  const double cells = std::floor(distance / (step_[2] * box.heights[2]) * (1 + tolerance)) + 1;
-  const auto reach = static_cast<std::int64_t>(std::min(cells, static_cast<double>(cells_[2])));
-  const std::int64_t end = std::min(high + reach + 1, cells_[2]);
-  const std::int64_t wrapped = box.periodic[2] ? low + cells_[2] - reach : cells_[2];
-  const std::int64_t top = std::clamp(wrapped, end, cells_[2]);
-  return { { rows.last, end * layer }, { top * layer, this->capacity() } };
+  const std::array<std::int64_t, 3> own = this->place_of(row);
+  const Vector3& from = this->part_of(row);
+  const double most = distance * (1 + 1e-9) + 16 * box.rounding();
+  std::array<std::int64_t, 3> reach; // cells
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    reach[axis] = static_cast<std::int64_t>(most / (step_[axis] * box.heights[axis]) + cell_.last);
+  }
+  const auto visit_cell = [&](const std::array<std::int64_t, 3>& cell)
+  {
+    std::array<std::int64_t, 3> place;
+    PeriodicImage image;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const std::int64_t away = image_of(cell[axis], cells_[axis]);
+      if (away != 0 && !box.periodic[axis])
+      {
+        return;
+      }
+      image[axis] = static_cast<std::int8_t>(away);
+      place[axis] = cell[axis] - away * cells_[axis];
+    }
+    const std::int64_t first = ((place[2] * cells_[1] + place[1]) * cells_[0] + place[0]) *
+      static_cast<std::int64_t>(cell_.particles.size());
+    for (std::size_t i = 0; i < cell_.particles.size(); ++i)
+    {
+      Vector3 way;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        way[axis] =
+          (static_cast<double>(cell[axis] - own[axis]) + cell_.particles[i][axis] - from[axis]) *
+          step_[axis];
+      }
+      const Vector3 edge = box.edge(way);
+      if (dot(edge, edge) <= most * most)
+      {
+        visit(first + static_cast<std::int64_t>(i), image);
+      }
+    }
+  };
+  for (std::int64_t z = own[2] - reach[2]; z <= own[2] + reach[2]; ++z)
+  {
+    for (std::int64_t y = own[1] - reach[1]; y <= own[1] + reach[1]; ++y)
+    {
+      for (std::int64_t x = own[0] - reach[0]; x <= own[0] + reach[0]; ++x)
+      {
+        visit_cell({ x, y, z });
+      }
+    }
+  }
 }
 
 Vector3 Lattice::lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
-  double radius, std::int64_t grains)
+  double radius, std::int64_t particles)
 {
   const LatticeCell& cell = cell_of(kind);
   const double cells =
-    std::ceil(static_cast<double>(grains) / static_cast<double>(cell.grains.size()));
-  const double volume = cells * cell.lengths[0] * cell.lengths[1] * cell.lengths[2];
-  const double edge = cell.flat ? std::sqrt(volume / cell.lengths[0]) : std::cbrt(volume);
-  const std::size_t first = cell.flat ? 1 : 0;
-  Vector3 counts = { 1, 1, 1 };
-  for (std::size_t axis = first; axis < 3; ++axis)
-  {
-    counts[axis] = std::max(1.0, std::floor(edge / cell.lengths[axis]));
-  }
+    std::ceil(static_cast<double>(particles) / static_cast<double>(cell.particles.size()));
+  const double edge = std::max(1.0, std::floor(std::cbrt(cells)));
+  Vector3 counts = { edge, edge, edge };
   while (counts[0] * counts[1] * counts[2] < cells)
   {
-    std::size_t shortest = first;
-    for (std::size_t axis = first + 1; axis < 3; ++axis)
-    {
-      const double length = counts[axis] * cell.lengths[axis];
-      shortest = length < counts[shortest] * cell.lengths[shortest] ? axis : shortest;
-    }
-    ++counts[shortest];
+    ++*std::ranges::min_element(counts);
   }
   Vector3 lengths;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double length = cell.lengths[axis] * distance;
-    lengths[axis] = periodic[axis]
-      ? counts[axis] * length
-      : (counts[axis] - 1 + last_place(cell, axis)) * length + 2 * radius;
+    const double length = cell.length * distance;
+    lengths[axis] =
+      periodic[axis] ? counts[axis] * length : (counts[axis] - 1 + cell.last) * length + 2 * radius;
   }
   return lengths;
 }

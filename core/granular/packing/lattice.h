@@ -3,31 +3,28 @@
 #define granular_packing_lattice_h
 
 #include "granular/packing/box_shape.h"
-#include "granular/packing/grain_rows.h"
+#include "granular/packing/placed_particle.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace granular
 {
-/// A cell of a lattice: its lengths in units of the distance of nearest neighbours, and its grains in
-/// units of the cell.
+/// A cubic cell of a lattice: its length in units of the distance of nearest neighbours, and its particles in units of
+/// the cell.
 struct LatticeCell
 {
   const char* name;
-  Vector3 lengths;
-  std::span<const Vector3> grains;
-  bool flat = false; ///< one cell along x is all there is
+  double length;
+  std::span<const Vector3> particles;
+  double last; ///< coordinate of a particle along any axis
 };
 
 enum class LatticeKind : std::uint8_t
 {
   SimpleCubic,
-  FaceCentredCubic,
-  Hexagonal,  ///< closest packing in layers ABAB across z
-  FibreBundle ///< a cross-section: closest packing in rows ABAB across z
+  FaceCentredCubic
 };
 
 /// Whole cells of a lattice along the vectors of a box, in its middle, sheared with the box. Neighbours are
@@ -52,9 +49,10 @@ public:
   /// Returns a distance that no two particles and images are nearer than, in exact arithmetic.
   double nearest() const noexcept { return nearest_; }
 
-  /// Returns ranges of later rows that contain every particle within a distance of a particle in `rows`: whole layers across
-  /// z, up to the next cells and through a periodic face.
-  std::vector<RowRange> rows_near(const RowRange& rows, const BoxShape& box, double distance) const;
+  /// Calls visit for every particle of the full lattice that is nearer to another one than a distance, and for some that
+  /// are not.
+  void visit_near(
+    std::int64_t row, const BoxShape& box, double distance, const VisitNear& visit) const;
 
   /// Returns the lengths of a box for a number of particles, as much like a cube as whole cells allow.
   static Vector3 lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
@@ -64,6 +62,7 @@ private:
   std::array<std::int64_t, 3> cells_for(
     const BoxShape& box, double length, double radius) const noexcept;
   std::array<std::int64_t, 3> place_of(std::int64_t row) const noexcept;
+  const Vector3& part_of(std::int64_t row) const noexcept;
   void lay_axis(const BoxShape& box, std::size_t axis, double length);
   void lay(const BoxShape& box, double length, double radius);
   double lay(const BoxShape& box, double length, double radius, double clear);

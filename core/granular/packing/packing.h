@@ -18,9 +18,7 @@ enum class Arrangement : std::uint8_t
   Random,
   SimpleCubic,
   FaceCentredCubic,
-  Hexagonal,
-  Chain, ///< one straight row of particles along the first box vector, in the middle of the box
-  FibreBundle ///< parallel chains, in closest packing
+  Chain ///< one straight row of particles along the first box vector, in the middle of the box
 };
 
 /// The wanted particles. At least one of grains and box must be given.
@@ -36,7 +34,6 @@ struct PackingRequest
                                ///< grains by that of the box
   double spacing =
     1; ///< all but random: distance of nearest neighbours by the largest diameter, >= 1
-  std::int64_t grains_per_fibre = 20; ///< of a bundle, >= 1; its last fibre may have fewer
   double speed = 0; ///< standard deviation of each component of the velocities, >= 0
   std::uint64_t seed = 1;
   int piece = 0; ///< part of the particles, of `pieces` in all: see make_packing
@@ -47,24 +44,23 @@ struct PackingRequest
 
 class PackingPlan;
 
-/// Makes particles that do not overlap, as a frame of timestep 0 with the columns id type x y z radius vx vy vz; chains and
-/// bundles also have mol, the number of the fibre from 1. Each particle is a function of the request and of its number. The
-/// parts hold each particle once, in the order of their ids, which count from 1, and are of equal size; threads and pieces
-/// change nothing else. Random particles are those of random sequential adsorption: one after the other is placed at a random
-/// position, the largest first, and stays if it overlaps no earlier one. A range of radii has classes of 5 % in width, each
-/// with the room of its largest particle. Random particles are numbered along the highest axis of the box.
+/// Makes particles that do not overlap, as a frame of timestep 0 with the columns id type x y z radius vx vy vz; a chain also
+/// has mol, which is 1. Each particle is a function of the request and of its number. The parts hold each particle once, in
+/// the order of their ids, which count from 1, and are of equal size; threads and pieces change nothing else. Random particles
+/// are those of random sequential adsorption: one after the other is placed at a random position, the largest first, and
+/// stays if it overlaps no earlier one. They are numbered by cells of a grid, along the highest axis of the box at last.
 ///
 /// Particles are entirely inside the box; along periodic axes only centres are, and images do not overlap particles either.
 /// Random particles do not touch; neighbours of a lattice of spacing 1 touch within the rounding of coordinates. In a box that
-/// holds a lattice or fibres only just, radii are less than asked for by that rounding. A fibre begins one radius inside the
-/// face and is stretched by no more than rounding; a fibre longer than the box is an error.
+/// holds a lattice or a chain only just, radii are less than asked for by that rounding. A chain begins one radius inside the
+/// face; a chain longer than the box is an error.
 ///
-/// Throws LimitError for impossible requests: values out of bounds, a box without room, random particles without a position;
+/// Throws LimitError for impossible requests: values out of bounds, a box without room, random particles without a position or
+/// more than 10^7 of them;
 /// Cancelled; std::bad_alloc.
 DumpFrame make_packing(const PackingRequest& request, Progress& progress);
 
-/// Makes particles where several ranks share the work: each makes its own part, and the random particles around it. The plan
-/// is collective, this function is not.
+/// Makes the piece of a plan. Every rank has the whole plan.
 DumpFrame make_packing(const PackingPlan& plan, Progress& progress);
 }
 #endif

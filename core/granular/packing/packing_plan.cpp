@@ -3,7 +3,6 @@
 
 #include "granular/common/error.h"
 #include "granular/common/shares.h"
-#include "granular/packing/grain_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +39,6 @@ void check_numbers(const PackingRequest& request)
     "a solid fraction greater than 0 and at most 0.74", request.solid_fraction);
   expect(request.spacing >= 1 && std::isfinite(request.spacing), "a finite spacing of at least 1",
     request.spacing);
-  expect(request.grains_per_fibre >= 1 && request.grains_per_fibre <= most_grains,
-    "a number of grains per fibre from 1 to 10^12", static_cast<double>(request.grains_per_fibre));
   expect(request.speed >= 0 && std::isfinite(request.speed), "a finite speed of at least 0",
     request.speed);
   expect(request.pieces >= 1, "at least 1 piece", request.pieces);
@@ -53,49 +50,15 @@ void check_numbers(const PackingRequest& request)
   }
 }
 
-enum class Way : std::uint8_t
-{
-  Random,
-  Lattice,
-  Fibres
-};
-
-/// How each arrangement is made, in the order of Arrangement.
-struct Making
-{
-  Way way;
-  LatticeKind lattice = LatticeKind::SimpleCubic;
-  Fibres::Kind fibres = Fibres::Kind::One;
-};
-
-constexpr Making makings[] = {
-  { Way::Random },
-  { Way::Lattice, LatticeKind::SimpleCubic },
-  { Way::Lattice, LatticeKind::FaceCentredCubic },
-  { Way::Lattice, LatticeKind::Hexagonal },
-  { Way::Fibres, {}, Fibres::Kind::One },
-  { Way::Fibres, {}, Fibres::Kind::Bundle },
-};
-
-const Making& making_of(const PackingRequest& request)
-{
-  return makings[static_cast<std::size_t>(request.arrangement)];
-}
-
 double distance_of(const PackingRequest& request)
 {
   return request.spacing * 2 * request.radii.largest();
 }
 
-/// Of a chain all, of a bundle as asked for if there are so many; 0: as many as the box holds.
-std::int64_t grains_a_fibre(const PackingRequest& request)
+LatticeKind lattice_of(Arrangement arrangement)
 {
-  if (request.arrangement == Arrangement::Chain)
-  {
-    return request.grains;
-  }
-  return request.grains > 0 ? std::min(request.grains, request.grains_per_fibre)
-                            : request.grains_per_fibre;
+  return arrangement == Arrangement::SimpleCubic ? LatticeKind::SimpleCubic
+                                                 : LatticeKind::FaceCentredCubic;
 }
 
 /// The edge of a cube for random grains. Between walls few of them have less room than the solid fraction
@@ -116,20 +79,19 @@ Box made_box(const PackingRequest& request, const std::string& boundary, double 
   const double radius = request.radii.largest();
   const std::array<bool, 3> periodic = { boundary[0] == 'p', boundary[3] == 'p',
     boundary[6] == 'p' };
-  const Making& making = making_of(request);
   Vector3 lengths;
-  switch (making.way)
+  switch (request.arrangement)
   {
-    case Way::Random:
+    case Arrangement::Random:
       lengths.fill(made_edge(request, boundary != "pp pp pp"));
       break;
-    case Way::Lattice:
-      lengths = Lattice::lengths_for(making.lattice, periodic, distance, radius, request.grains);
+    case Arrangement::SimpleCubic:
+    case Arrangement::FaceCentredCubic:
+      lengths = Lattice::lengths_for(
+        lattice_of(request.arrangement), periodic, distance, radius, request.grains);
       break;
-    case Way::Fibres:
-      const std::int64_t each = grains_a_fibre(request);
-      lengths = Fibres::lengths_for(
-        making.fibres, periodic, distance, radius, each, (request.grains - 1) / each + 1);
+    case Arrangement::Chain:
+      lengths = Chain::lengths_for(periodic, distance, radius, request.grains);
       break;
   }
   Box box = Box::from_bounds({}, lengths);
@@ -141,16 +103,22 @@ Box made_box(const PackingRequest& request, const std::string& boundary, double 
   return box;
 }
 
-/// The distance that no two grains are nearer than in a box: see Lattice and Fibres.
+/// The distance that no two grains are nearer than in a box: see Lattice and Chain.
 double nearest_in(const BoxShape& box, const PackingRequest& request)
 {
-  const Making& making = making_of(request);
   const double distance = distance_of(request);
   const double radius = request.radii.largest();
-  return making.way == Way::Random ? HUGE_VAL
-    : making.way == Way::Lattice
-    ? Lattice(making.lattice, box, distance, radius).nearest()
-    : Fibres(making.fibres, box, distance, radius, grains_a_fibre(request)).nearest();
+  switch (request.arrangement)
+  {
+    case Arrangement::Random:
+      break;
+    case Arrangement::SimpleCubic:
+    case Arrangement::FaceCentredCubic:
+      return Lattice(lattice_of(request.arrangement), box, distance, radius).nearest();
+    case Arrangement::Chain:
+      return Chain(box, distance, radius, request.grains).nearest();
+  }
+  return HUGE_VAL;
 }
 
 /// The box for the grains, with room for the rounding of coordinates where that could make them overlap.
@@ -205,94 +173,81 @@ std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
   const double count = request.grains > 0 ? static_cast<double>(request.grains)
                                           : std::floor(request.solid_fraction * room + 1e-9);
   expect(count >= 1, "a box that holds a grain at the solid fraction asked for", count);
-  expect(count <= static_cast<double>(most_grains),
-    "a box that holds at most 10^12 grains at this solid fraction", count);
+  if (count > static_cast<double>(RandomPacking::most_particles))
+  {
+    throw LimitError("expected at most 10^7 random grains, got " + std::to_string(count) +
+      ": a lattice, SimpleCubic or FaceCentredCubic, can have more");
+  }
   expect(count <= most_solid * room * (1 + 1e-9) || count == 1, "a solid fraction of at most 0.74",
     count / room);
   return static_cast<std::int64_t>(count);
 }
 
-/// How many grains there are of those that there are places for.
-std::int64_t count_of(const PackingRequest& request, std::int64_t places, const char* where)
+/// How many grains there are on a lattice.
+std::int64_t lattice_count(const PackingRequest& request, const Lattice& lattice)
 {
-  const std::int64_t room = std::min(places, most_grains);
+  const std::int64_t room = std::min(lattice.capacity(), most_grains);
   if (request.grains > room)
   {
     throw LimitError("expected at most " + std::to_string(room) +
-      " grains, which the box holds in " + where + ", got " + std::to_string(request.grains));
+      " grains, which the box holds in this lattice, got " + std::to_string(request.grains));
   }
   return request.grains > 0 ? request.grains : room;
 }
 }
 
-PackingPlan::PackingPlan(const PackingRequest& wanted, Communicator& ranks, Progress& progress)
+PackingPlan::PackingPlan(const PackingRequest& wanted, Progress& progress)
   : request(wanted)
   , box(checked_box(request))
   , shape(box)
-  , radii(request.radii, 0, request.seed)
+  , radii_(request.radii, 0, request.seed)
 {
-  const Making& making = making_of(request);
-  check_room(shape, request.radii, making.way == Way::Random);
+  check_room(shape, request.radii, request.arrangement == Arrangement::Random);
   const double radius = request.radii.largest();
-  switch (making.way)
+  const double distance = distance_of(request);
+  switch (request.arrangement)
   {
-    case Way::Random:
+    case Arrangement::Random:
       grains = random_count(request, shape);
       break;
-    case Way::Lattice:
-      lattice_.emplace(making.lattice, shape, distance_of(request), radius);
-      nearest = lattice_->nearest();
-      grains = count_of(request, lattice_->capacity(), "this lattice");
+    case Arrangement::SimpleCubic:
+    case Arrangement::FaceCentredCubic:
+      lattice_.emplace(lattice_of(request.arrangement), shape, distance, radius);
+      nearest_ = lattice_->nearest();
+      grains = lattice_count(request, *lattice_);
       break;
-    case Way::Fibres:
-      fibres.emplace(making.fibres, shape, distance_of(request), radius, grains_a_fibre(request));
-      nearest = fibres->nearest();
-      grains = count_of(request, fibres->capacity(), "these fibres");
+    case Arrangement::Chain:
+      chain_.emplace(shape, distance, radius, request.grains);
+      nearest_ = chain_->nearest();
+      grains = chain_->particles();
       break;
   }
-  radii = Radii(request.radii, grains, request.seed);
-  if (making.way == Way::Random)
+  radii_ = Radii(request.radii, grains, request.seed);
+  first = begin_of_part(grains, request.piece, request.pieces);
+  last = begin_of_part(grains, request.piece + 1, request.pieces);
+  if (request.arrangement == Arrangement::Random)
   {
-    random_.emplace(shape, radii, request.seed, ranks, request.threads, progress);
+    random_.emplace(shape, radii_, request.seed, progress);
   }
 }
 
-RowRange PackingPlan::rows() const noexcept
+PlacedParticle PackingPlan::particle(std::int64_t row) const noexcept
 {
-  return { begin_of_part(grains, request.piece, request.pieces),
-    begin_of_part(grains, request.piece + 1, request.pieces) };
+  return random_
+    ? random_->particle(row)
+    : PlacedParticle{ lattice_ ? lattice_->point(row, shape) : chain_->point(row, shape),
+        std::min(radii_.radius(row), nearest_ / 2), radii_.type(row) };
 }
 
-void PackingPlan::place_rows(const GrainRows& rows, Progress& progress) const
+void PackingPlan::visit_near(std::int64_t row, double distance, const VisitNear& visit) const
 {
   if (random_)
   {
-    random_->place(rows, request.threads, progress);
-    return;
+    random_->visit_near(row, distance, visit);
   }
-  for_row_chunks(rows.count(), request.threads, progress,
-    [&](std::int64_t begin, std::int64_t end, std::size_t)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const std::int64_t row = rows.first + i;
-        const Vector3 place = lattice_ ? lattice_->point(row, shape) : fibres->point(row, shape);
-        std::copy(place.begin(), place.end(), rows.points + 3 * i);
-        rows.radius[i] = std::min(radii.radius(row), nearest / 2);
-        rows.type[i] = radii.type(row);
-      }
-    });
-}
-
-std::vector<RowRange> PackingPlan::rows_near(const RowRange& rows, double distance) const
-{
-  std::vector<RowRange> ranges =
-    lattice_ ? lattice_->rows_near(rows, shape, distance) : random_->rows_near(rows, distance);
-  for (RowRange& range : ranges)
+  else
   {
-    range.last = std::min(range.last, grains); // a lattice may have room for more
+    lattice_->visit_near(row, shape, distance, visit);
   }
-  std::erase_if(ranges, [](const RowRange& range) { return range.count() <= 0; });
-  return ranges;
 }
 }

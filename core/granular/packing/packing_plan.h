@@ -4,28 +4,26 @@
 
 #include "granular/common/progress.h"
 #include "granular/packing/box_shape.h"
-#include "granular/packing/fibres.h"
+#include "granular/packing/chain.h"
 #include "granular/packing/lattice.h"
 #include "granular/packing/packing.h"
+#include "granular/packing/placed_particle.h"
 #include "granular/packing/radii.h"
-#include "granular/packing/random_grains.h"
-#include "granular/parallel/communicator.h"
+#include "granular/packing/random_packing.h"
 
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace granular
 {
-/// The plan of a request: its box, and the number, sizes and positions of particles. The requests of all ranks are the same
-/// except for pieces and threads.
+/// The plan of a request: its box, and the number, sizes and positions of particles. It is the same on all ranks whose
+/// requests are the same except for pieces and threads.
 class PackingPlan
 {
 public:
-  /// Collective for random particles only: each rank places those of its part of the box, and the ranks count. Throws on all
-  /// ranks LimitError for impossible requests; Cancelled.
-  PackingPlan(const PackingRequest& request, Communicator& ranks, Progress& progress);
+  /// Throws LimitError for impossible requests; Cancelled.
+  PackingPlan(const PackingRequest& request, Progress& progress);
 
   PackingPlan(const PackingPlan&) = delete;
   PackingPlan& operator=(const PackingPlan&) = delete;
@@ -33,25 +31,23 @@ public:
   PackingRequest request;
   Box box;
   BoxShape shape;
-  std::optional<Fibres> fibres; ///< of a chain or a bundle
   std::int64_t grains = 0;
-  Radii radii;
-  double nearest =
-    HUGE_VAL; ///< no two particles of a lattice or of fibres are nearer: larger radii are cut to half of it
+  std::int64_t first = 0; ///< row of the piece
+  std::int64_t last = 0;  ///< the row after the piece
 
-  /// Returns the rows of the piece.
-  RowRange rows() const noexcept;
+  PlacedParticle particle(std::int64_t row) const noexcept;
 
-  /// Returns any rows of the particles: each position is a function of the request and of its row. Throws Cancelled.
-  void place_rows(const GrainRows& rows, Progress& progress) const;
-
-  /// Returns ranges of later rows that contain every particle within a distance, at most six of the largest radii, of a
-  /// particle in `rows`. Not for fibres. rows are not empty.
-  std::vector<RowRange> rows_near(const RowRange& rows, double distance) const;
+  /// Calls visit for every particle that is nearer to another one than a distance, and for some that are not: rows of a
+  /// lattice may be beyond its particles. Not for chains.
+  void visit_near(std::int64_t row, double distance, const VisitNear& visit) const;
 
 private:
+  Radii radii_;
+  double nearest_ =
+    HUGE_VAL; ///< no two particles of a lattice or chain are nearer: larger radii are cut to half of it
   std::optional<Lattice> lattice_;
-  std::optional<RandomGrains> random_;
+  std::optional<Chain> chain_;
+  std::optional<RandomPacking> random_;
 };
 }
 #endif

@@ -7,18 +7,16 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
-#include <utility>
 
 namespace granular
 {
 namespace
 {
-/// Largest first, small grains find no place any more between much larger ones.
+/// Between much larger particles, small ones rarely find a place.
 constexpr double largest_ratio = 20;
-
-constexpr double class_ratio = 1.05;
 
 double cube(double value)
 {
@@ -38,10 +36,8 @@ double RadiusChoice::largest() const noexcept
 
 double RadiusChoice::mean_volume() const noexcept
 {
-  const double squares = first * first + second * second;
-  const double mean_cubes[] = { cube(first), (1 - share) * cube(first) + share * cube(second),
-    (first + second) * squares / 4 };
-  return 4.0 / 3 * std::numbers::pi * mean_cubes[static_cast<std::size_t>(kind)];
+  const double seconds = kind == Kind::Two ? share : 0;
+  return 4.0 / 3 * std::numbers::pi * ((1 - seconds) * cube(first) + seconds * cube(second));
 }
 
 void check(const RadiusChoice& choice)
@@ -67,100 +63,43 @@ void check(const RadiusChoice& choice)
   }
 }
 
-Radii::Radii(const RadiusChoice& choice, std::int64_t grains, std::uint64_t seed) noexcept
+Radii::Radii(const RadiusChoice& choice, std::int64_t particles, std::uint64_t seed) noexcept
   : choice_(choice)
-  , grains_(grains)
-  , seconds_(std::llround(choice.share * static_cast<double>(grains)))
+  , particles_(particles)
+  , seconds_(choice.kind == RadiusChoice::Kind::Two
+        ? std::llround(choice.share * static_cast<double>(particles))
+        : 0)
   , seed_(seed)
 {
 }
 
-double Radii::radius(std::int64_t grain) const noexcept
+double Radii::radius(std::int64_t row) const noexcept
 {
-  switch (choice_.kind)
-  {
-    case RadiusChoice::Kind::One:
-      return choice_.first;
-    case RadiusChoice::Kind::Two:
-      return this->type(grain) == 2 ? choice_.second : choice_.first;
-    case RadiusChoice::Kind::Range:
-      break;
-  }
-  return this->part(this->dealt(grain, grains_));
+  return this->type(row) == 2 ? choice_.second : choice_.first;
 }
 
-std::int32_t Radii::type(std::int64_t grain) const noexcept
+std::int32_t Radii::type(std::int64_t row) const noexcept
 {
-  return choice_.kind == RadiusChoice::Kind::Two && this->dealt(grain, grains_) < seconds_ ? 2 : 1;
+  return seconds_ > 0 && this->dealt(row) < seconds_ ? 2 : 1;
 }
 
-/// The middle of one of as many equal parts of the range as there are grains.
-double Radii::part(std::int64_t number) const noexcept
+std::vector<SizeClass> Radii::by_size() const
 {
-  const double part = (static_cast<double>(number) + 0.5) / static_cast<double>(grains_);
-  return choice_.first + part * (choice_.second - choice_.first);
+  std::vector<SizeClass> sizes = { { choice_.first, particles_ - seconds_, 1 },
+    { choice_.second, seconds_, 2 } };
+  std::erase_if(sizes, [](const SizeClass& each) { return each.particles == 0; });
+  std::ranges::stable_sort(sizes, std::ranges::greater(), &SizeClass::radius);
+  return sizes;
 }
 
-/// The same, the largest first.
-double Radii::by_size(std::int64_t number) const noexcept
+/// Returns the place of a particle when all are shuffled: a Feistel network permutes the numbers of an even number of bits;
+/// a number that leads out of the particles is followed until it is back.
+std::int64_t Radii::dealt(std::int64_t row) const noexcept
 {
-  return this->part(choice_.first < choice_.second ? grains_ - 1 - number : number);
-}
-
-std::vector<SizeClass> Radii::classes() const
-{
-  std::vector<SizeClass> found;
-  switch (choice_.kind)
-  {
-    case RadiusChoice::Kind::One:
-      found = { { choice_.first, grains_, 1 } };
-      break;
-    case RadiusChoice::Kind::Two:
-      found = { { choice_.first, grains_ - seconds_, 1 }, { choice_.second, seconds_, 2 } };
-      if (choice_.first < choice_.second)
-      {
-        std::swap(found[0], found[1]);
-      }
-      break;
-    case RadiusChoice::Kind::Range:
-      for (std::int64_t first = 0; first < grains_;)
-      {
-        const double radius = this->by_size(first);
-        std::int64_t low = first; // in the class
-        std::int64_t high = grains_;
-        while (high - low > 1)
-        {
-          const std::int64_t middle = low + (high - low) / 2;
-          (this->by_size(middle) * class_ratio >= radius ? low : high) = middle;
-        }
-        found.push_back({ radius, high - first, 1 });
-        first = high;
-      }
-      break;
-  }
-  std::erase_if(found, [](const SizeClass& each) { return each.grains == 0; });
-  for (std::size_t i = 1; i < found.size(); ++i)
-  {
-    found[i].first = found[i - 1].first + found[i - 1].grains;
-  }
-  return found;
-}
-
-double Radii::radius(const SizeClass& size_class, std::int64_t grain) const noexcept
-{
-  return choice_.kind == RadiusChoice::Kind::Range
-    ? this->by_size(size_class.first + this->dealt(grain, size_class.grains))
-    : size_class.radius;
-}
-
-/// Where one of some grains comes when all are shuffled: a Feistel network permutes the numbers of an even number
-/// of bits; one that leads out of the grains is followed until it is back.
-std::int64_t Radii::dealt(std::int64_t grain, std::int64_t grains) const noexcept
-{
-  const auto bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(grains - 1)));
+  const auto bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(particles_ - 1)));
   const int half_bits = std::max((bits + 1) / 2, 1);
   const std::uint64_t mask = (std::uint64_t{ 1 } << half_bits) - 1;
-  auto number = static_cast<std::uint64_t>(grain);
+  auto number = static_cast<std::uint64_t>(row);
   do
   {
     std::uint64_t left = number >> half_bits;
@@ -173,7 +112,7 @@ std::int64_t Radii::dealt(std::int64_t grain, std::int64_t grains) const noexcep
       right = next;
     }
     number = left << half_bits | right;
-  } while (number >= static_cast<std::uint64_t>(grains));
+  } while (number >= static_cast<std::uint64_t>(particles_));
   return static_cast<std::int64_t>(number);
 }
 }

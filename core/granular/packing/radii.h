@@ -12,9 +12,8 @@ struct RadiusChoice
 {
   enum class Kind : std::uint8_t
   {
-    One,  ///< all have the radius `first`
-    Two,  ///< a share of them has `second`, and type 2
-    Range ///< evenly from `first` to `second`
+    One, ///< all have the radius `first`
+    Two  ///< a share of them has `second`, and type 2
   };
 
   Kind kind = Kind::One;
@@ -27,43 +26,36 @@ struct RadiusChoice
   double mean_volume() const noexcept;
 };
 
-/// Particles of nearly the same size, which are placed alike.
+/// Particles of one size.
 struct SizeClass
 {
-  double radius = 0; ///< the largest of them
-  std::int64_t grains = 0;
+  double radius = 0;
+  std::int64_t particles = 0;
   std::int32_t type = 1;
-  std::int64_t first = 0; ///< number of particles in earlier classes
 };
 
 /// Throws LimitError for impossible values.
 void check(const RadiusChoice& choice);
 
-/// The radii of a number of particles. Sizes are dealt out, not drawn for each: with Two the share is exact to one particle,
-/// with Range each of as many equal parts of the range occurs once.
+/// The radii of a number of particles. They are dealt out, not drawn for each: the share is exact to one particle.
 class Radii
 {
 public:
-  Radii(const RadiusChoice& choice, std::int64_t grains, std::uint64_t seed) noexcept;
+  Radii(const RadiusChoice& choice, std::int64_t particles, std::uint64_t seed) noexcept;
 
   const RadiusChoice& choice() const noexcept { return choice_; }
-  double radius(std::int64_t grain) const noexcept;
-  std::int32_t type(std::int64_t grain) const noexcept;
+  double radius(std::int64_t row) const noexcept;
+  std::int32_t type(std::int64_t row) const noexcept;
 
-  /// Returns all particles by size, the largest first; no class is empty. Radii of a class differ by at most 5 %.
-  std::vector<SizeClass> classes() const;
-
-  /// Returns the radius of a particle of a class, where radii are dealt out within the classes.
-  double radius(const SizeClass& size_class, std::int64_t grain) const noexcept;
+  /// Returns the sizes that have particles, the largest first.
+  std::vector<SizeClass> by_size() const;
 
 private:
-  std::int64_t dealt(std::int64_t grain, std::int64_t grains) const noexcept;
-  double part(std::int64_t number) const noexcept;
-  double by_size(std::int64_t number) const noexcept;
+  std::int64_t dealt(std::int64_t row) const noexcept;
 
   RadiusChoice choice_;
-  std::int64_t grains_;
-  std::int64_t seconds_; ///< with Two, the number with `second`
+  std::int64_t particles_;
+  std::int64_t seconds_; ///< the number with `second`
   std::uint64_t seed_;
 };
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_packing_random_packing_h
+#define granular_packing_random_packing_h
+
+#include "granular/common/progress.h"
+#include "granular/packing/box_shape.h"
+#include "granular/packing/placed_particle.h"
+#include "granular/packing/radii.h"
+#include "granular/packing/random_numbers.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace granular
+{
+/// Random sequential adsorption: one particle after the other, the largest first, is placed at a random position where it
+/// overlaps no earlier one. The positions depend on box, radii and seed alone, so every rank makes the same ones.
+class RandomPacking
+{
+public:
+  /// More particles would take one core too long.
+  static constexpr std::int64_t most_particles = 10'000'000;
+
+  /// box must live as long as this. Throws LimitError if some particle finds no position; Cancelled.
+  RandomPacking(const BoxShape& box, const Radii& radii, std::uint64_t seed, Progress& progress);
+
+  /// Returns a particle. Rows follow the cells of the largest particles, slowest along the highest axis of the box.
+  PlacedParticle particle(std::int64_t row) const noexcept;
+
+  /// Calls visit for every particle that is nearer to another one than a distance, and for some that are not.
+  void visit_near(std::int64_t row, double distance, const VisitNear& visit) const;
+
+private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  struct Particle
+  {
+    Vector3 at; ///< from the origin of the box
+    std::uint32_t size;
+    std::uint32_t next; ///< in the same cell, or none
+  };
+
+  /// Cells for the particles of one size, about as large as two of them.
+  struct Grid
+  {
+    double radius;
+    std::size_t begin;                       ///< among the cells of all grids
+    std::array<std::int64_t, 3> counts = {}; ///< along each box vector
+    std::array<std::int64_t, 3> strides = {};
+  };
+
+  struct NearCell
+  {
+    std::uint32_t cell;
+    PeriodicImage image;
+  };
+
+  struct Try
+  {
+    Vector3 scaled;
+    Vector3 at;
+    std::vector<NearCell> near;
+  };
+
+  bool place_all(RandomNumbers numbers, Progress& progress);
+  void place_group(std::uint32_t size, std::size_t end, RandomNumbers& numbers);
+  void draw(Try& wanted, double radius, RandomNumbers& numbers) const;
+  bool fits(const Try& wanted, double radius) const noexcept;
+  void add_grid(const SizeClass& size);
+  void add(const Vector3& scaled, Particle particle);
+  static std::size_t cell_of(const Grid& grid, const Vector3& scaled) noexcept;
+  void find_near(
+    const Grid& grid, const Vector3& scaled, double distance, std::vector<NearCell>& near) const;
+  void number_by_cells();
+  [[noreturn]] void give_up() const;
+
+  const BoxShape& box_;
+  double gap_; ///< between particles: rounding of their coordinates may take it
+  std::vector<SizeClass> sizes_;
+  std::int64_t wanted_ = 0;     ///< particles
+  std::int64_t tries_left_ = 0; ///< in all attempts
+  std::vector<Try> group_;
+  std::vector<Grid> grids_;
+  std::vector<std::uint32_t> first_; ///< particle of each cell of all grids
+  std::vector<Particle> particles_;
+  std::int64_t most_ = 0; ///< particles that found places in one attempt
+};
+}
+#endif
