@@ -24,9 +24,9 @@ class DurableClasses : public OwnFolder
 protected:
   void TearDown() override { stop_failing(); }
 
-  /// How often a new writer waits for the disk, with a setting of Durable or none.
+  /// How often a new writer waits for the disk.
   template <class WriterClass>
-  long Syncs(vtkAlgorithm* input, const std::string& name, int durable = -1)
+  long Syncs(vtkAlgorithm* input, const std::string& name, int durable)
   {
     Watched<WriterClass> writer;
     writer->SetInputConnection(input->GetOutputPort());
@@ -47,16 +47,18 @@ protected:
   {
     Watched<ReaderClass> reader;
     reader->AddFileName((std::string(GRANULAR_DATA) + "/good/" + input).c_str());
-    const std::string one = "one" + ending;
-    const std::string many = "many_*" + ending;
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, one), 2); // the file, and its name
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, many), 0);
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, one, WriterClass::DURABLE_AUTOMATIC), 2);
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, many, WriterClass::DURABLE_AUTOMATIC), 0);
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, one, WriterClass::DURABLE_ON), 2);
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, many, WriterClass::DURABLE_ON), 2);
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, one, WriterClass::DURABLE_OFF), 0);
-    EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, many, WriterClass::DURABLE_OFF), 0);
+    struct Case
+    {
+      int Durable; ///< -1: as it is by default
+      long OfOne;  ///< the file, and its name
+      long OfMany;
+    };
+    for (const Case& each : { Case{ -1, 2, 0 }, Case{ WriterClass::DURABLE_AUTOMATIC, 2, 0 },
+           Case{ WriterClass::DURABLE_ON, 2, 2 }, Case{ WriterClass::DURABLE_OFF, 0, 0 } })
+    {
+      EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, "one" + ending, each.Durable), each.OfOne);
+      EXPECT_EQ(this->Syncs<WriterClass>(reader.Get, "many_*" + ending, each.Durable), each.OfMany);
+    }
     Watched<WriterClass> writer;
     writer->SetDurable(3);
     EXPECT_EQ(writer->GetDurable(), WriterClass::DURABLE_AUTOMATIC);

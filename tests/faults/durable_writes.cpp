@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that survive a loss of power: what waits for the disk, and what an error of the disk leaves.
-#include "../c/handles.h"
 #include "../support/failing_calls.h"
 #include "../support/own_folder.h"
 #include "../support/write_file.h"
+#include "runs.h"
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/common/error.h"
@@ -34,12 +34,7 @@ protected:
   /// The synchronisation of this number fails; returns what was said, and "" if all was well.
   std::string write(bool durable, int error, long number = 1)
   {
-    FailingCalls fault;
-    fault.fault = CallFault::Error;
-    fault.kinds = calls::sync;
-    fault.error = error;
-    fault.first = number;
-    make_fail(fault);
+    make_fail({ CallFault::Error, number, 1, calls::sync, error });
     std::string said;
     try
     {
@@ -56,25 +51,11 @@ protected:
   }
 
   /// How often a file of this name waits for the disk.
-  long syncs(const std::string& name, int durable)
+  long syncs(const std::string& name, const granular_format& format)
   {
-    const RunHandle run = open_run(good("grains.dump"));
-    const FrameHandle frame = read_frame(run, 0);
-    granular_format format;
-    granular_format_init(&format);
-    if (durable >= 0)
-    {
-      format.durable = durable;
-    }
-    granular_writer* writer = nullptr;
-    FailingCalls none;
-    none.fault = CallFault::Error;
-    none.kinds = calls::sync;
-    none.first = FailingCalls::always;
-    make_fail(none);
-    EXPECT_EQ(granular_create(this->path(name).c_str(), &format, &writer), GRANULAR_OK);
-    EXPECT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_OK) << message();
-    EXPECT_EQ(granular_finish(writer), GRANULAR_OK) << message();
+    const runs::Frames frames(good("grains_1000.dump"));
+    make_fail({ CallFault::Error, FailingCalls::always, 1, calls::sync });
+    EXPECT_EQ(frames.write(this->path(name), format), GRANULAR_OK) << message();
     return calls_that_may_fail();
   }
 };
@@ -118,17 +99,15 @@ TEST_F(DurableWrites, AFileSystemThatCannotTellIsNoError)
 
 TEST_F(DurableWrites, OneFileWaitsAndASeriesDoesNot)
 {
-  constexpr int given_nothing = -1;
-  for (const int durable : { given_nothing, 2 })
-  {
-    EXPECT_EQ(this->syncs("one.dump", durable), 2);
-    EXPECT_EQ(this->syncs("one.dump.gz", durable), 2);
-    EXPECT_EQ(this->syncs("many_*.dump", durable), 0);
-  }
-  EXPECT_EQ(this->syncs("one.dump", 0), 0);
-  EXPECT_EQ(this->syncs("many_*.dump", 1), 2);
   granular_format format;
-  granular_format_init(&format);
+  granular_format_init(&format); // automatic
+  EXPECT_EQ(this->syncs("one.dump", format), 2);
+  EXPECT_EQ(this->syncs("one.dump.gz", format), 2);
+  EXPECT_EQ(this->syncs("many_*.dump", format), 0);
+  format.durable = 0;
+  EXPECT_EQ(this->syncs("one.dump", format), 0);
+  format.durable = 1;
+  EXPECT_EQ(this->syncs("many_*.dump", format), 2);
   format.durable = 3;
   granular_writer* writer = nullptr;
   for (const char* const style : { "custom", "euler" })

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The calls of the system that fail in the tests of the C interface, of the VTK classes and of ranks, and a check that each has
-// failed: a fault that never comes proves nothing.
+// The calls of the system that fail, one after the other, and a check that each has failed: a fault that never comes proves nothing.
 #ifndef granular_tests_faults_failing_cases_h
 #define granular_tests_faults_failing_cases_h
 
 #include "../support/failing_calls.h"
-#include "fault_numbers.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -139,6 +140,78 @@ inline void expect_delivered(
     [&](const NeverFires& one) { return test.ends_with(one.test) && one.case_name == case_name; });
   EXPECT_TRUE(testing::Test::HasFailure() || (delivered == 0) == cannot)
     << case_name << ": " << delivered << " in " << test;
+}
+
+/// The environment asks for all calls: GRANULAR_FAULTS=all.
+inline bool all_faults_wanted()
+{
+  const char* const wanted = std::getenv("GRANULAR_FAULTS");
+  return wanted != nullptr && std::string(wanted) == "all";
+}
+
+/// The number of the call that fails after call `number` has: the next one, or of many calls the first and then some, spread over
+/// all, about `most` of each.
+inline long next_number(long number, long calls, long most)
+{
+  const long step = all_faults_wanted() ? 1 : std::max(1L, calls / most);
+  return number + (number < std::min(step, most) ? 1 : step);
+}
+
+/// Counts the faults of a test, and prints their number at its end.
+class FaultCount
+{
+public:
+  void add(bool fired = true) { faults_ += fired ? 1 : 0; }
+
+  explicit FaultCount(bool says = true)
+    : says_(says)
+  {
+  }
+  FaultCount(const FaultCount&) = delete;
+  ~FaultCount()
+  {
+    if (says_)
+    {
+      std::printf("faults: %ld\n", faults_);
+    }
+  }
+
+private:
+  bool says_;
+  long faults_ = 0;
+};
+
+/// Calls use(number), which lets that call fail, for each call until it returns fewer calls than that; with `most`, of many calls for
+/// some. Files and memory must be as many after it as before: something may be kept for good, but not each time. Returns how many faults
+/// there were.
+inline long fail_each(
+  const char* name, long most, FaultCount& faults, const std::function<long(long number)>& use)
+{
+  constexpr int most_tries = 3;
+  long made = 0;
+  long delivered = 0;
+  bool fired = true;
+  for (long number = 1; fired && !testing::Test::HasFailure();)
+  {
+    SCOPED_TRACE(std::string(name) + ", call " + std::to_string(number));
+    const long files = open_files();
+    long possible = 0;
+    bool grown = true;
+    for (int tries = 0; grown && tries < most_tries; ++tries)
+    {
+      const long blocks = live_blocks();
+      possible = use(number);
+      grown = live_blocks() > blocks;
+    }
+    EXPECT_FALSE(grown && !testing::Test::HasFailure()) << "memory is lost";
+    EXPECT_EQ(open_files(), files) << "files are left open";
+    made = std::max(made, possible);
+    fired = possible >= number;
+    delivered += fired ? 1 : 0;
+    faults.add(fired);
+    number = most > 0 ? next_number(number, made, most) : number + 1;
+  }
+  return delivered;
 }
 
 /// A dump whose rows are enough for pages of their own.

@@ -41,37 +41,11 @@ FailingCalls Failing(const FailingCase& one, long number, const std::string& fol
   return failing;
 }
 
-/// Calls use(number) until it returns fewer calls than that. Files and memory must be as many after it as before; VTK keeps some
-/// memory for good, but not each time. Returns how many faults were delivered.
-long FailEach(
+/// Calls use(number) for each call that may fail in a way, which must come up.
+void FailEach(
   const FailingCase& one, FaultCount& faults, const std::function<long(long number)>& use)
 {
-  constexpr int mostTries = 3;
-  long made = 0;
-  long delivered = 0;
-  bool fired = true;
-  for (long number = 1; fired && !testing::Test::HasFailure();)
-  {
-    SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
-    const long files = open_files();
-    long possible = 0;
-    const long before = live_blocks();
-    bool grown = true;
-    for (int tries = 0; grown && tries < mostTries; ++tries)
-    {
-      const long blocks = live_blocks();
-      possible = use(number);
-      grown = live_blocks() > blocks;
-    }
-    EXPECT_FALSE(grown) << "memory is lost: " << live_blocks() - before << " blocks";
-    EXPECT_EQ(open_files(), files) << "files are left open";
-    made = std::max(made, possible);
-    fired = possible >= number;
-    delivered += fired ? 1 : 0;
-    faults.add(fired);
-    number = of_memory(one) ? next_number(number, made, MostOfMemory) : number + 1;
-  }
-  return delivered;
+  expect_delivered(one.name, fail_each(one.name, of_memory(one) ? MostOfMemory : 0, faults, use));
 }
 
 // ---- readers -----------------------------------------------------------------------------------
@@ -157,9 +131,8 @@ void TryAll(const std::vector<std::string>& files,
     {
       if (again == Again::Update || (!of_memory(one) && !one.harmless))
       {
-        expect_delivered(one.name,
-          FailEach(one, faults,
-            [&](long number) { return TryOne<Algorithm>(whole, one, number, again); }));
+        FailEach(
+          one, faults, [&](long number) { return TryOne<Algorithm>(whole, one, number, again); });
       }
     }
   }
@@ -194,8 +167,7 @@ public:
     FaultCount faults;
     for (const FailingCase& one : writer_cases)
     {
-      expect_delivered(
-        one.name, FailEach(one, faults, [&](long number) { return this->TryOne(one, number); }));
+      FailEach(one, faults, [&](long number) { return this->TryOne(one, number); });
     }
     EXPECT_GT(this->WrittenBut, 0) << "of the folder, which is behind the file";
   }

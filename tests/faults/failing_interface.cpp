@@ -1,175 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every call of the system that a function of granular.h makes fails in turn: for each reader and each writer, with each fault. The
-// reference is the run in which none does.
-#include "../c/handles.h"
+// Every call of the system that a reader and each writer of granular.h make fails in turn, with each fault. The reference is the run
+// in which none does. Other readers: failing_reads.cpp.
 #include "../support/dumps.h"
 #include "failing_cases.h"
+#include "runs.h"
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <functional>
+#include <span>
 #include <string>
-#include <vector>
+
+using namespace runs;
 
 namespace
 {
-namespace fs = std::filesystem;
-
-constexpr int threads = 2;
 constexpr long most_of_memory = 20; ///< calls that are tried, where not all are wanted
-constexpr long most_of_large = 2;   ///< in inputs that take long
-
-// ---- faults ------------------------------------------------------------------------------------
+constexpr long most_of_large = 2;   ///< in files that take long
 
 /// What came of a function.
 struct Result
 {
   granular_status status = GRANULAR_OK;
   std::string error;   ///< its message
-  std::string content; ///< of what was read
+  std::string content; ///< of all that was read
   std::string notices; ///< of files that cannot be read, among others
 };
 
-Result failed(granular_status status)
+Result result_of(granular_status status)
 {
   stop_failing();
-  return { status, granular_last_error()->message, "", "" };
+  return { status, status == GRANULAR_OK ? "" : message(), "", "" };
 }
 
-/// Lets the last error of this thread always take the same memory.
-void keep_long_error()
+void expect_named(const FailingCase& one, const Result& result, const std::string& folder)
 {
-  const std::string path(100, 'x');
-  const char* const name = path.c_str();
-  granular_run* run = nullptr;
-  EXPECT_EQ(granular_open(&name, 1, nullptr, &run), GRANULAR_IO_ERROR);
+  EXPECT_TRUE(!one.harmless || result.status == GRANULAR_OK) << result.error;
+  EXPECT_TRUE(result.status == GRANULAR_OK || of_memory(one) ||
+    result.error.find(folder) != std::string::npos)
+    << result.error;
+  EXPECT_TRUE(result.status == GRANULAR_OK || !result.error.empty());
 }
 
-/// Calls use(case, number) for each call that may fail, in each way. use returns how many calls there were that might. Memory and
-/// files must be as many after it as before.
-void fail_each(std::span<const FailingCase> cases,
-  const std::function<long(const FailingCase& one, long number)>& use,
-  std::span<const NeverFires> never = {})
+Result read_all(const FailingCalls& calls)
 {
-  FaultCount faults;
-  for (const FailingCase& one : cases)
-  {
-    long made = 0;
-    long delivered = 0;
-    bool fired = true;
-    for (long number = 1; fired;)
-    {
-      SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
-      const long files = open_files();
-      const long before = live_blocks();
-      const long possible = use(one, number);
-      fired = possible >= number;
-      made = std::max(made, possible);
-      delivered += fired ? 1 : 0;
-      keep_long_error();
-      if (live_blocks() != before && !::testing::Test::HasFailure())
-      {
-        const long blocks = live_blocks(); // the first time, something may be kept for good
-        use(one, number);
-        keep_long_error();
-        EXPECT_EQ(live_blocks(), blocks) << "memory is lost";
-      }
-      EXPECT_EQ(open_files(), files) << "files are left open";
-      faults.add(fired);
-      if (::testing::Test::HasFailure())
-      {
-        return;
-      }
-      const bool large = (one.kinds & (calls::map | calls::thread)) != 0;
-      number = large     ? next_number(number, made, most_of_large)
-        : of_memory(one) ? next_number(number, made, most_of_memory)
-                         : number + 1;
-    }
-    expect_delivered(one.name, delivered, never);
-  }
-}
-
-// ---- readers -----------------------------------------------------------------------------------
-
-/// A run to read.
-struct Input
-{
-  const char* name;
-  std::vector<std::string> files;
-  long rows = 0; ///< of a file that is made, with this many
-};
-
-class FailingInput : public ::testing::TestWithParam<Input>
-{
-};
-
-/// Adds all that a frame holds to a text.
-granular_status add_frame(granular_run* run, std::int64_t number, int table, std::string& text)
-{
-  granular_request request;
-  granular_request_init(&request);
-  request.threads = threads;
-  request.table = table;
-  granular_frame* read = nullptr;
-  granular_status status = granular_read(run, number, &request, &read);
-  const FrameHandle frame(read, granular_release);
-  granular_frame_header header = {};
-  status = status == GRANULAR_OK ? granular_header(read, &header) : status;
-  for (std::size_t i = 0; status == GRANULAR_OK && i < header.arrays; ++i)
-  {
-    granular_array array = {};
-    status = granular_array_at(read, i, &array);
-    if (status == GRANULAR_OK)
-    {
-      const std::size_t width =
-        array.type == GRANULAR_FLOAT64 || array.type == GRANULAR_INT64 ? 8 : 1;
-      text += array.name;
-      text.append(static_cast<const char*>(array.data),
-        static_cast<std::size_t>(array.rows * array.components) * width);
-    }
-  }
-  return status;
-}
-
-/// Reads all frames, while these calls fail.
-Result read_all(const std::vector<const char*>& names, const FailingCalls& calls)
-{
-  Result result;
-  result.content.reserve(
-    std::size_t{ 1 } << 22); // the test takes no memory while memory is refused
-  granular_open_options options;
-  granular_open_options_init(&options);
-  options.threads = threads;
-  result.notices.reserve(std::size_t{ 1 } << 16);
+  std::string content;
+  std::string notices;
+  content.reserve(std::size_t{ 1 } << 22); // the test takes no memory while memory is refused
+  notices.reserve(std::size_t{ 1 } << 16);
+  granular_open_options options = options_of(GRANULAR_KIND_AUTOMATIC, 2);
   options.notice = [](const char* text, void* user)
   { static_cast<std::string*>(user)->append(text).append("\n"); };
-  options.user = &result.notices;
+  options.user = &notices;
+  const std::string pattern = good("plain.dump");
   make_fail(calls);
-  granular_run* opened = nullptr;
-  result.status = granular_open(names.data(), names.size(), &options, &opened);
-  const RunHandle run(opened, granular_close);
-  granular_run_facts facts = {};
-  granular_status& status = result.status;
-  status = status == GRANULAR_OK ? granular_run_info(opened, &facts) : status;
-  for (std::int64_t i = 0; status == GRANULAR_OK && i < facts.frames; ++i)
-  {
-    granular_frame_facts own = {};
-    status = granular_frame_info(opened, i, &own);
-    for (int table = 0; status == GRANULAR_OK && table < facts.tables; ++table)
-    {
-      status = add_frame(opened, i, table, result.content);
-    }
-  }
-  stop_failing();
-  result.error = status == GRANULAR_OK ? "" : message();
+  const granular_status status = visit(pattern.c_str(), options,
+    [&](const void* bytes, std::size_t count)
+    { content.append(static_cast<const char*>(bytes), count); });
+  Result result = result_of(status);
+  result.content = content;
+  result.notices = notices;
   return result;
 }
 
-// ---- writers -----------------------------------------------------------------------------------
-
 /// A file to write, from a file of a real run.
-struct Output
+struct Target
 {
   const char* name;
   const char* from;
@@ -181,170 +75,7 @@ struct Output
   int durable = 2; ///< the default
 };
 
-class FailingOutput : public ::testing::TestWithParam<Output>
-{
-protected:
-  static constexpr const char* old_content = "what was there before";
-
-  void SetUp() override
-  {
-    const Output& output = GetParam();
-    const Folder own;
-    own.write("made.dump", dump_of_rows(output.rows));
-    const RunHandle run = open_run(output.rows > 0 ? own.path("made.dump") : good(output.from));
-    granular_run_facts facts = {};
-    granular_run_info(run.get(), &facts);
-    for (std::int64_t i = 0; i < facts.frames; ++i)
-    {
-      frames_.push_back(read_frame(run, i));
-    }
-    ASSERT_FALSE(frames_.empty());
-    fs::remove(own.path("made.dump"));
-    path_ = folder_.path(output.file);
-    ASSERT_EQ(this->write_all({}).error, "");
-    for (const auto& entry : fs::directory_iterator(folder_.path("")))
-    {
-      const std::string name = entry.path().filename().string();
-      names_.push_back(name);
-      whole_.push_back(content(entry.path().string()));
-    }
-    ASSERT_FALSE(names_.empty());
-  }
-
-  /// All files as they were before.
-  void begin() const
-  {
-    for (const auto& entry : fs::directory_iterator(folder_.path("")))
-    {
-      fs::remove(entry.path());
-    }
-    this->rewrite_old();
-  }
-
-  Result write_all(const FailingCalls& calls) const
-  {
-    const Output& output = GetParam();
-    granular_format format;
-    granular_format_init(&format);
-    format.style = output.style;
-    format.dialect = output.dialect;
-    format.sort_by_id = output.sorted;
-    format.threads = threads;
-    format.durable = output.durable;
-    make_fail(calls);
-    granular_writer* writer = nullptr;
-    granular_status status = granular_create(path_.c_str(), &format, &writer);
-    if (status != GRANULAR_OK)
-    {
-      return failed(status);
-    }
-    for (const FrameHandle& frame : frames_)
-    {
-      status = granular_write_frame(writer, frame.get());
-      if (status != GRANULAR_OK)
-      {
-        granular_abandon(writer); // which keeps the last error
-        return failed(status);
-      }
-    }
-    status = granular_finish(writer);
-    stop_failing();
-    return status == GRANULAR_OK ? Result{} : failed(status);
-  }
-
-  /// Fails a call of a writer.
-  Result write_failing(const FailingCase& one, long number) const
-  {
-    const std::string folder = without_slash(folder_.path(""));
-    this->begin();
-    if (one.leaves == Leaves::Older)
-    {
-      EXPECT_NE(this->write_all(leaving_calls(folder)).error, "");
-      this->rewrite_old();
-    }
-    return this->write_all(failing_calls_of(one, number, folder));
-  }
-
-  void rewrite_old() const
-  {
-    for (const std::string& name : names_)
-    {
-      folder_.write(name, old_content);
-    }
-  }
-
-  /// Each file is the old one or the new one, all are new where there was no error, and there are no others.
-  void expect_old_or_new(const Result& result) const
-  {
-    std::size_t found = 0;
-    for (const auto& entry : fs::directory_iterator(folder_.path("")))
-    {
-      const std::string name = entry.path().filename().string();
-      if (is_hidden(name))
-      {
-        continue; // counted by others
-      }
-      const auto known = std::find(names_.begin(), names_.end(), name);
-      ASSERT_NE(known, names_.end()) << name << " was left behind: " << result.error;
-      const std::string now = content(entry.path().string());
-      const bool is_new = now == whole_[static_cast<std::size_t>(known - names_.begin())];
-      EXPECT_TRUE(is_new || (result.status != GRANULAR_OK && now == old_content)) << result.error;
-      // once one file has its name, the next ones may fail
-      const bool one_file = names_.size() == 1;
-      const bool was_renamed = result.error.find(": written, but") != std::string::npos;
-      EXPECT_TRUE(!one_file || result.status == GRANULAR_OK || !is_new || was_renamed)
-        << result.error;
-      ++found;
-    }
-    EXPECT_EQ(found, names_.size());
-  }
-
-  Folder folder_;
-  std::string path_;
-  std::vector<FrameHandle> frames_;
-  std::vector<std::string> names_;
-  std::vector<std::string> whole_;
-};
-
-void expect_named(const FailingCase& one, const Result& result, const std::string& folder)
-{
-  EXPECT_TRUE(!one.harmless || result.status == GRANULAR_OK) << result.error;
-  EXPECT_TRUE(result.status == GRANULAR_OK || of_memory(one) ||
-    result.error.find(folder) != std::string::npos)
-    << result.error;
-  EXPECT_TRUE(result.status == GRANULAR_OK || !result.error.empty());
-}
-
-template <class Kind>
-std::string name_of(const ::testing::TestParamInfo<Kind>& info)
-{
-  std::string name = info.param.name;
-  std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
-  return name;
-}
-
-const Input inputs[] = {
-  { "text", { "plain.dump" } },
-  { "binary", { "ortho_scaled.bin" } },
-  { "compressed", { "ortho_000000.dump.gz", "ortho_000050.dump.gz" } },
-  { "pieces",
-    { "pieces_1000.0.dump", "pieces_1000.1.dump", "pieces_1000.2.dump", "pieces_1000.3.dump" } },
-  { "contacts", { "local/contacts.dump" } },
-  { "data file", { "data_file/full.data" } },
-  { "restart", { "restart/fibres.restart" } },
-  { "Euler cells", { "euler_1000.vtk", "euler_2000.vtk" } },
-  { "decomposition", { "decomposition_1000.vtk" } },
-  { "decomposition, .vtu", { "decomposition/blocks_raw_zlib.vtu" } },
-  { "many rows", {}, 60000 },
-};
-
-constexpr NeverFires never_fires[] = {
-  { "/afileforeachframe", "the disk takes nothing", "such files do not wait for the disk" },
-  { "/afileforeachframe", "waiting for the disk is interrupted",
-    "nor is there anything to wait for" },
-};
-
-const Output outputs[] = {
+const Target targets[] = {
   { "text", "plain.dump", "new.dump" },
   { "text, sorted", "chain.dump", "new.dump", "", "", 1 },
   { "style atom", "ortho_scaled.dump", "new.dump", "atom" },
@@ -359,73 +90,144 @@ const Output outputs[] = {
   { "decomposition, PUBLIC", "decomposition_1000.vtk", "new.decomposition", "", "PUBLIC" },
   { "many rows, sorted", "", "new.dump", "", "", 1, 530000 },
 };
+
+constexpr NeverFires never_fires[] = {
+  { "/afileforeachframe", "the disk takes nothing", "such files do not wait for the disk" },
+  { "/afileforeachframe", "waiting for the disk is interrupted",
+    "nor is there anything to wait for" },
+};
+
+class FailingWriter : public ::testing::TestWithParam<Target>
+{
+protected:
+  static constexpr const char* old_content = "what was there before";
+
+  Result write_all(const FailingCalls& calls) const
+  {
+    const Target& target = GetParam();
+    granular_format format;
+    granular_format_init(&format);
+    format.style = target.style;
+    format.dialect = target.dialect;
+    format.sort_by_id = target.sorted;
+    format.threads = 2;
+    format.durable = target.durable;
+    const std::string path = folder_.path(target.file);
+    make_fail(calls);
+    return result_of(frames_.write(path, format));
+  }
+
+  void write_old() const
+  {
+    for (const auto& [name, bytes] : whole_)
+    {
+      folder_.write(name, old_content);
+    }
+  }
+
+  /// Fails a call of a writer. Returns how many there were that might.
+  long try_one(const FailingCase& one, long number)
+  {
+    const std::string folder = without_slash(folder_.path(""));
+    this->write_old();
+    if (one.leaves == Leaves::Older)
+    {
+      EXPECT_NE(this->write_all(leaving_calls(folder)).error, "");
+      this->write_old();
+    }
+    const Result result = this->write_all(failing_calls_of(one, number, folder));
+    const long possible = calls_that_may_fail();
+    expect_named(one, result, folder);
+    EXPECT_EQ(count_hidden(folder), possible >= number && one.leaves != Leaves::Nothing ? 1 : 0)
+      << result.error;
+    this->expect_old_or_new(result);
+    EXPECT_EQ(this->write_all({}).error, "");
+    EXPECT_TRUE(files_of(folder) == whole_) << result.error;
+    return possible;
+  }
+
+  /// Each file is the old one or the new one, all are new where there was no error, and there are no others.
+  void expect_old_or_new(const Result& result)
+  {
+    std::map<std::string, std::string> files = files_of(folder_.path(""));
+    std::erase_if(files, [](const auto& file) { return is_hidden(file.first); });
+    EXPECT_EQ(files.size(), whole_.size());
+    const bool written_but = result.error.find(": written, but") != std::string::npos;
+    written_but_ += written_but ? 1 : 0;
+    for (const auto& [name, bytes] : files)
+    {
+      const bool is_new = bytes == whole_[name];
+      EXPECT_TRUE(is_new || (result.status != GRANULAR_OK && bytes == old_content)) << result.error;
+      // once one file has its name, the next ones may fail
+      const bool one_file = whole_.size() == 1;
+      EXPECT_TRUE(!one_file || result.status == GRANULAR_OK || !is_new || written_but)
+        << result.error;
+    }
+  }
+
+  static std::string source()
+  {
+    const Target& target = GetParam();
+    return target.rows == 0 ? good(target.from)
+                            : Folder().write("made.dump", dump_of_rows(target.rows));
+  }
+
+  Frames frames_{ source() };
+  Folder folder_; ///< empty
+  std::map<std::string, std::string> whole_;
+  long written_but_ = 0;
+};
+
+std::string name_of(const ::testing::TestParamInfo<Target>& info)
+{
+  std::string name = info.param.name;
+  std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+  return name;
+}
 }
 
-TEST_P(FailingInput, NamesTheFileOrReadsItAll)
+TEST(FailingReader, NamesTheFileOrReadsItAll)
 {
-  const Input& input = GetParam();
-  const Folder own;
-  std::vector<std::string> paths;
-  for (const std::string& file : input.files)
-  {
-    paths.push_back(good(file));
-  }
-  if (input.rows > 0)
-  {
-    own.write("made.dump", dump_of_rows(input.rows));
-    paths.push_back(own.path("made.dump"));
-  }
-  std::vector<const char*> names;
-  for (const std::string& path : paths)
-  {
-    names.push_back(path.c_str());
-  }
-  const std::string folder = input.rows > 0 ? own.path("") : good("");
-  const Result whole = read_all(names, {});
+  const std::string folder = good("");
+  const Result whole = read_all({});
   ASSERT_EQ(whole.error, "");
   ASSERT_FALSE(whole.content.empty());
-  fail_each(input.rows > 0 ? std::span<const FailingCase>(large_cases) : reader_cases,
-    [&](const FailingCase& one, long number)
+  FaultCount faults;
+  for (const FailingCase& one : reader_cases)
+  {
+    const auto use = [&](long number)
     {
-      const Result result = read_all(names, failing_calls_of(one, number, folder));
+      const Result result = read_all(failing_calls_of(one, number, folder));
       const long possible = calls_that_may_fail();
       expect_named(one, result, folder);
       const bool same = result.content == whole.content && result.notices == whole.notices;
       const bool told = !one.harmless &&
         (result.status != GRANULAR_OK || result.notices.size() > whole.notices.size());
       EXPECT_TRUE(same || told) << result.notices;
-      const Result again = read_all(names, {});
-      EXPECT_TRUE(again.content == whole.content) << again.error;
+      EXPECT_TRUE(read_all({}).content == whole.content);
       return possible;
-    });
+    };
+    const long most = of_memory(one) ? most_of_memory : 0;
+    expect_delivered(one.name, fail_each(one.name, most, faults, use));
+  }
 }
 
-TEST_P(FailingOutput, LeavesTheOldFileOrTheNewOne)
+TEST_P(FailingWriter, LeavesTheOldFileOrTheNewOne)
 {
-  const std::string folder = folder_.path("");
-  long written_but = 0;
-  fail_each(
-    GetParam().rows > 0 ? std::span<const FailingCase>(large_cases) : writer_cases,
-    [&](const FailingCase& one, long number)
-    {
-      const Result result = this->write_failing(one, number);
-      const long possible = calls_that_may_fail();
-      expect_named(one, result, folder);
-      EXPECT_EQ(count_hidden(folder), possible >= number && one.leaves != Leaves::Nothing ? 1 : 0)
-        << result.error;
-      this->expect_old_or_new(result);
-      const Result again = this->write_all({});
-      EXPECT_EQ(again.error, "");
-      EXPECT_EQ(count_hidden(folder), 0) << result.error;
-      this->expect_old_or_new(again);
-      written_but += result.error.find(": written, but") != std::string::npos ? 1 : 0;
-      return possible;
-    },
-    never_fires);
-  const bool waits =
-    GetParam().rows == 0 && std::string(GetParam().name) != "a file for each frame";
-  EXPECT_EQ(written_but > 0, waits) << "of the folder, which is behind the file";
+  ASSERT_EQ(this->write_all({}).error, "");
+  whole_ = files_of(folder_.path(""));
+  ASSERT_FALSE(whole_.empty());
+  const bool large = GetParam().rows > 0;
+  FaultCount faults;
+  for (const FailingCase& one : large ? std::span<const FailingCase>(large_cases) : writer_cases)
+  {
+    const long most = large ? most_of_large : of_memory(one) ? most_of_memory : 0;
+    const long delivered =
+      fail_each(one.name, most, faults, [&](long number) { return this->try_one(one, number); });
+    expect_delivered(one.name, delivered, never_fires);
+  }
+  const bool waits = !large && std::string(GetParam().name) != "a file for each frame";
+  EXPECT_EQ(written_but_ > 0, waits) << "of the folder, which is behind the file";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, FailingInput, ::testing::ValuesIn(inputs), name_of<Input>);
-INSTANTIATE_TEST_SUITE_P(Kinds, FailingOutput, ::testing::ValuesIn(outputs), name_of<Output>);
+INSTANTIATE_TEST_SUITE_P(Kinds, FailingWriter, ::testing::ValuesIn(targets), name_of);

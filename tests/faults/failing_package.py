@@ -1,59 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each call of the system that the package makes fails in turn: an exception names the file, a file to write is the old one or the new
-one, and the next call is good. Memory is refused where the library asks for it. Every fault must come up for every file."""
+"""Each call of the system that the package makes fails in turn, for a reader, for a writer of the library, and for the files that are
+written in Python: an exception names the file, a file to write is the old one or the new one, and the next call is good. Then the calls
+that wait for the disk are counted. Memory is refused where the library asks for it."""
 import contextlib
 import hashlib
 import io
 import os
 import warnings
-import zipfile
 
 import granular
 from granular.command import main
 import failing_calls
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
+PLAIN = os.path.join(GOOD, "plain.dump")
 HERE = os.getcwd()
-MADE = os.path.join(HERE, "made.dump")
-MOST = 2  # calls of a kind that are tried, where not all are wanted; those of the C interface are in failing_interface.cpp
-
-READERS = {
-    "text": ["plain.dump"],
-    "binary": ["ortho_scaled.bin"],
-    "compressed": ["ortho_000000.dump.gz"],
-    "pieces": [f"pieces_1000.{rank}.dump" for rank in range(4)],
-    "contacts": ["local/contacts.dump"],
-    "data file": ["data_file/full.data"],
-    "restart": ["restart/fibres.restart"],
-    "Euler cells": ["euler_1000.vtk"],
-    "decomposition": ["decomposition_1000.vtk"],
-    "decomposition, .vtu": ["decomposition/blocks_raw_zlib.vtu"],
-}
-
-WRITERS = {
-    "new.dump": "plain.dump",
-    "new.bin": "chain.dump",
-    "new.dump.gz": "chain.dump",
-    "new.dump.zst": "chain.dump",
-    "new.bonds": "local/contacts.dump",
-    "new.euler": "euler_1000.vtk",
-    "new.decomposition": "decomposition_1000.vtk",
-}
-
-# Faults that cannot come up, and why.
-CANNOT = {
-    (".npz", "there are no descriptors"): "Python's own files copy none",
-    (".csv", "there are no descriptors"): "Python's own files copy none",
-    (".series", "there are no descriptors"): "Python's own files copy none",
-}
-# Python says it when closing is interrupted: the old file stays
-NOT_HARMLESS = {"closing is interrupted"}
+MOST = 2  # calls of a kind that are tried, where not all are wanted; those of the library are in failing_interface.cpp
 
 
 def content(path):
-    if path.endswith(".npz") and zipfile.is_zipfile(path):  # which has the time of day
-        with zipfile.ZipFile(path) as parts:
-            return {name: parts.read(name) for name in parts.namelist()}
     with open(path, "rb") as stream:
         return stream.read()
 
@@ -62,13 +27,13 @@ def said(error):
     return f"{type(error).__name__}: {error}"  # the error itself would keep the run
 
 
-def read(paths):
-    """All that the files hold in short, what went wrong, and what was told."""
+def read():
+    """All that the file holds in short, what went wrong, and what was told."""
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         found, error = hashlib.sha256(), None
         try:
-            for frame in granular.open(paths):
+            for frame in granular.open(PLAIN):
                 found.update(repr((frame.step, list(frame))).encode())
                 for name in frame:
                     found.update(frame[name])
@@ -77,30 +42,30 @@ def read(paths):
     return None if error else found.hexdigest(), error, [str(one.message) for one in told]
 
 
-def check_reader(name, paths, folder, faults):
-    whole = read(paths)
-    assert whole[0] and whole[1] is None, (name, whole)
+def check_reader():
+    whole = read()
+    assert whole[0] and whole[1] is None, whole
     count = 0
-    for one in faults:
-        for seen in failing_calls.each(one, folder, lambda: read(paths), whole, MOST):
+    for one in failing_calls.READER_FAULTS + failing_calls.MEMORY_FAULTS:
+        for seen in failing_calls.each(one, GOOD, read, whole, MOST):
             count += 1
             found, error, told = seen
-            where = (name, one.name, error, told)
-            assert seen == whole or not one.harmless, where
-            assert found == whole[0] or error is not None or len(told) > len(whole[2]), where
-            assert error is None or one.of_memory or folder in error, where
-            assert read(paths) == whole, where
-    return count
+            assert seen == whole or not one.harmless, (one.name, seen)
+            assert found == whole[0] or error is not None or len(told) > len(whole[2]), (one.name, seen)
+            assert error is None or one.of_memory or GOOD in error, (one.name, seen)
+            assert read() == whole, (one.name, seen)
+    print(count, "faults in a reader")
 
 
-def check_writer(path, write, faults, most_left=1):
-    """write() returns the error, or None."""
-    ending = os.path.splitext(path)[1]
-    return failing_calls.check_writer(path, write, faults, None, lambda error: error, lambda: content(path), MOST, most_left,
-                                      lambda one: (ending, one.name) in CANNOT)
+def check_writer(name, write, faults, most_left=1, cannot=()):
+    """write(path) returns the error, or None. cannot: the faults that do not come up."""
+    path = os.path.join(HERE, name)
+    count = failing_calls.check_writer(path, lambda: write(path), faults, None, lambda error: error, lambda: content(path), MOST,
+                                       most_left, lambda one: one.name in cannot)
+    print(count, "faults in", name)
 
 
-def write_by_library(path, frames):
+def write_by_library(path):
     try:
         granular.write(path, frames)
     except (granular.Error, OSError, MemoryError) as error:
@@ -108,10 +73,14 @@ def write_by_library(path, frames):
     return None
 
 
-def convert(path):
+def convert(path, *options):
     with contextlib.redirect_stderr(io.StringIO()) as heard:
-        status = main(["convert", os.path.join(GOOD, "plain.dump"), path, "--frames", "-1", "--quiet"])
+        status = main(["convert", PLAIN, path, "--quiet", *options])
     return heard.getvalue() if status else None
+
+
+def convert_last(path):
+    return convert(path, "--frames", "-1")
 
 
 def write_series(path):
@@ -122,23 +91,25 @@ def write_series(path):
     return None
 
 
-for name, files in READERS.items():
-    faults = failing_calls.READER_FAULTS + failing_calls.MEMORY_FAULTS
-    print(check_reader(name, [os.path.join(GOOD, file) for file in files], GOOD, faults), "faults in", name)
-with open(MADE, "w") as stream:
-    rows = 60000
-    stream.write(f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{rows}\nITEM: BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10\nITEM: ATOMS id x y z\n")
-    stream.writelines(f"{row + 1} {row % 9} 2 3\n" for row in range(rows))
-print(check_reader("many rows", [MADE], HERE, failing_calls.LARGE_FAULTS), "faults in many rows")
+def check_durable():
+    """Two calls wait for the disk for each of three frames: for the bytes of the file, and for its name."""
+    for path, durable, expected in (("one.dump", None, 2), ("one.dump", False, 0), ("many_*.dump", None, 0), ("many_*.dump", True, 6)):
+        made = failing_calls.count(failing_calls.SYNC, lambda: granular.write(path, frames, durable=durable))
+        assert made == expected, (path, durable, made)
+    for path, options, expected in (("one.csv", ["--frames", "0"], 2), ("one.csv", ["--frames", "0", "--durable", "off"], 0),
+                                    ("many_*.csv", [], 0), ("many_*.bin", ["--durable", "on"], 6)):
+        made = failing_calls.count(failing_calls.SYNC, lambda: convert(path, *options))
+        assert made == expected, (path, options, made)
 
-for file, source in WRITERS.items():
-    path = os.path.join(HERE, file)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        frames = list(granular.open(os.path.join(GOOD, source)))
-        faults = failing_calls.WRITER_FAULTS + failing_calls.MEMORY_FAULTS
-        print(check_writer(path, lambda: write_by_library(path, frames), faults), "faults in", file)
-in_python = [one._replace(harmless=one.harmless and one.name not in NOT_HARMLESS) for one in failing_calls.WRITER_FAULTS]
-for file, write in {"new.csv": convert, "new.npz": convert, "new.series": write_series}.items():
-    path = os.path.join(HERE, file)
-    print(check_writer(path, lambda: write(path), in_python, most_left=3), "faults in", file)
+
+check_reader()
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    frames = list(granular.open(PLAIN))
+    assert len(frames) == 3
+    check_writer("new.dump", write_by_library, failing_calls.WRITER_FAULTS + failing_calls.MEMORY_FAULTS)
+    # Python says it when closing is interrupted: the old file stays
+    in_python = [one._replace(harmless=one.harmless and one.name != "closing is interrupted") for one in failing_calls.WRITER_FAULTS]
+    for name, write in {"new.csv": convert_last, "new.series": write_series}.items():
+        check_writer(name, write, in_python, most_left=3, cannot=("there are no descriptors",))
+    check_durable()

@@ -387,51 +387,28 @@ protected:
     }
     for (const Case& one : cases)
     {
-      long number = 1;
-      long delivered = 0;
-      long possible_before = 0;
-      for (bool fired = true; fired;)
+      const long most = most_calls(one, usual, bytes);
+      const auto use = [&](long number)
+      { return this->try_one(whole, clean, one, number, most, prepare); };
+      const bool many = (one.kinds & (calls::memory | calls::map)) != 0;
+      expect_delivered(one.name, fail_each(one.name, many ? most_of_memory : 0, faults, use));
+      if (::testing::Test::HasFailure())
       {
-        SCOPED_TRACE(std::string(one.name) + ", call " + std::to_string(number));
-        const long files = open_files();
-        const long blocks = live_blocks();
-        const auto fail_once = [&]
-        {
-          fired = this->try_one(
-            whole, clean, one, number, most_calls(one, usual, bytes), prepare, possible);
-        };
-        fail_once();
-        if (live_blocks() != blocks)
-        {
-          const long after_first = live_blocks(); // the first time, something may be kept for good
-          fail_once();
-          EXPECT_EQ(live_blocks(), after_first) << "memory is lost";
-        }
-        EXPECT_EQ(open_files(), files);
-        faults.add(fired);
-        delivered += fired ? 1 : 0;
-        if (::testing::Test::HasFailure())
-        {
-          return;
-        }
-        possible_before = std::max(possible, possible_before);
-        const bool many = (one.kinds & (calls::memory | calls::map)) != 0;
-        number = many ? next_number(number, possible_before, most_of_memory) : number + 1;
+        return;
       }
-      expect_delivered(one.name, delivered);
     }
   }
 
-  /// Fails a call, and looks again. Returns false if there was no such call.
-  bool try_one(const Seen& whole, const Seen& clean, const Case& one, long number, long most,
-    const std::function<RunIndex()>& prepare, long& possible) const
+  /// Fails a call, and looks again. Returns how many there were that might fail.
+  long try_one(const Seen& whole, const Seen& clean, const Case& one, long number, long most,
+    const std::function<RunIndex()>& prepare) const
   {
     RunIndex index = prepare();
+    long possible = 0;
     long made = 0;
     const Seen seen = this->look_with(
       { one.fault, number, one.count, one.kinds, one.error }, index, possible, made);
-    const bool fired = possible >= number;
-    this->judge(one, fired, seen, clean);
+    this->judge(one, possible >= number, seen, clean);
     EXPECT_LE(made, most);
     if (one.fault == CallFault::Shortened)
     {
@@ -444,7 +421,7 @@ protected:
       EXPECT_TRUE(again.frames == whole.frames)
         << again.frames.size() << " frames after " << seen.error << seen.said;
     }
-    return fired;
+    return possible;
   }
 
   void judge(const Case& one, bool fired, const Seen& seen, const Seen& clean) const

@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""granular.save by ParaView's own writers where there is no room: an error that names the file, and the old files as they were. Some of
-these writers do not look whether their bytes were written."""
+"""granular.save by ParaView's own writers where there is no room, as files may not have more bytes: an error that names the file, and
+the old files as they were. Some of these writers do not look whether their bytes were written."""
 import contextlib
 import os
 import resource
 import shutil
 import signal
-import subprocess
 
 from paraview.simple import *
 
 import granular
 
 GRAINS = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
-LIMIT = 100_000  # bytes of a file, or of a disk
+LIMIT = 100_000  # bytes of a file
 small, large = Sphere(), Sphere(ThetaResolution=200, PhiResolution=200)
 grains = granular.reader(GRAINS)
 
@@ -49,24 +48,20 @@ def refused(source, path, **properties):
     assert contents() == before, path
 
 
-def check(limit):
-    for ending in ("vtp", "csv", "ply", "stl", "vtk", "pvd", "pvtp"):
-        path = f"a.{ending}"
-        granular.save(small, path)
-        os.chmod(path, 0o640)
-        with limit():
-            refused(large, path)
-        granular.save(small, path)
-        assert os.stat(path).st_mode & 0o777 == 0o640, ending
-        for name in os.listdir("."):
-            shutil.rmtree(name) if os.path.isdir(name) else os.remove(name)
-
-
 shutil.rmtree("full", ignore_errors=True)
 os.mkdir("full")
 os.chdir("full")
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-check(limited)
+for ending in ("vtp", "csv", "ply", "stl", "vtk", "pvd", "pvtp"):
+    path = f"a.{ending}"
+    granular.save(small, path)
+    os.chmod(path, 0o640)
+    with limited():
+        refused(large, path)
+    granular.save(small, path)
+    assert os.stat(path).st_mode & 0o777 == 0o640, ending
+    for name in os.listdir("."):
+        shutil.rmtree(name) if os.path.isdir(name) else os.remove(name)
 
 # all files of a series, or none
 granular.save(grains, "all.vtp", WriteTimeSteps=1)
@@ -75,15 +70,4 @@ with limited():
     refused(grains, "all.vtp", WriteTimeSteps=1)
     refused(grains, "new.vtp", WriteTimeSteps=1)
 
-os.mkdir("disk")
-if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={4 * LIMIT}", "none", "disk"], stderr=subprocess.DEVNULL).returncode == 0:
-    try:
-        os.chdir("disk")
-        check(contextlib.nullcontext)
-        print("a disk was full")
-    finally:
-        os.chdir("..")
-        subprocess.run(["umount", "-l", "disk"], check=True)
-else:
-    print("only root may mount a small disk, and not everywhere")
 print("no file was lost")

@@ -3,8 +3,6 @@
 #ifndef granular_tests_faults_load_h
 #define granular_tests_faults_load_h
 
-#include "../support/memory_file.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -49,17 +47,22 @@ inline std::int64_t open_descriptors()
 
 constexpr std::int64_t mebibyte = std::int64_t{ 1 } << 20;
 
-/// Measures a case from its beginning, and tells at its end. Memory that was freed before is given back, and the
-/// system begins to look for the peak anew.
+/// Gives back memory that is free, and lets the system look for the peak anew. Returns the memory of the process.
+inline std::int64_t restart_peak()
+{
+  ::malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return status_of_process("VmRSS");
+}
+
+/// Measures a case from its beginning, and tells at its end.
 class Load
 {
 public:
   explicit Load(std::string what)
     : what_(std::move(what))
   {
-    ::malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << "5";
-    before_ = status_of_process("VmRSS");
+    before_ = restart_peak();
     descriptors_ = open_descriptors();
     start_ = std::chrono::steady_clock::now();
   }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of every kind at strange places and under strange names, read and written through the C interface. What is read under
 // a plain name is the reference.
-#include "places.h"
+#include "runs.h"
 
 #include "../support/apart.h"
 #include "../support/own_folder.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <map>
 
@@ -17,7 +16,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-using namespace places;
+using namespace runs;
 
 namespace
 {
@@ -110,7 +109,7 @@ TEST_F(Places, AreReadUnderStrangeNames)
       const std::string file = folder + "/" + name + kind.ending;
       fs::copy_file(source, file);
       EXPECT_EQ(look(file, kind.kind), plain);
-      EXPECT_EQ(names_in(folder).size(), 1u);
+      EXPECT_EQ(files_of(folder).size(), 1u);
       EXPECT_EQ(look(folder + "/*" + kind.ending, kind.kind), plain);
       EXPECT_EQ(look(folder + "/*", kind.kind), plain);
 
@@ -135,14 +134,13 @@ TEST_F(Places, AreWrittenUnderStrangeNames)
       const std::string folder = this->path(name);
       fs::create_directory(folder);
       EXPECT_EQ(convert(good(output.file), folder + "/" + name + output.ending), Seen{});
-      const std::vector<std::string> names = names_in(folder);
+      const std::map<std::string, std::string> files = files_of(folder);
       if (name.find('*') == std::string::npos) // which stands for the timestep in the last part
       {
-        ASSERT_EQ(names.size(), 1u);
-        EXPECT_EQ(content(folder + "/" + names[0]), content(plain));
+        ASSERT_EQ(files.size(), 1u);
+        EXPECT_EQ(files.begin()->second, content(plain));
         // in dumps `%` stands for the rank
-        EXPECT_TRUE(names[0] == name + output.ending || name.find('%') != std::string::npos)
-          << names[0];
+        EXPECT_TRUE(files.contains(name + output.ending) || name.find('%') != std::string::npos);
       }
       EXPECT_EQ(convert(good(output.file), folder + "/no/" + name + output.ending).status,
         GRANULAR_IO_ERROR);
@@ -168,7 +166,7 @@ TEST_F(Places, WhereThereIsNoFileNothingIsRead)
 TEST_F(Places, WhereThereIsNoFileNothingIsWritten)
 {
   no_files(this->folder());
-  const std::vector<std::string> before = names_in(this->folder());
+  const std::map<std::string, std::string> before = files_of(this->folder());
   for (const Output& output : outputs)
   {
     const std::string link =
@@ -182,9 +180,7 @@ TEST_F(Places, WhereThereIsNoFileNothingIsWritten)
       EXPECT_TRUE(message().starts_with(link + ": cannot write: ")) << message();
       EXPECT_TRUE(fs::is_symlink(link));
       fs::remove(link);
-      const std::vector<std::string> after = names_in(this->folder());
-      EXPECT_TRUE(std::is_permutation(before.begin(), before.end(), after.begin(), after.end()))
-        << place;
+      EXPECT_EQ(files_of(this->folder()), before) << place;
     }
   }
   EXPECT_TRUE(fs::is_fifo(this->path("pipe")) && fs::is_socket(this->path("socket")));
@@ -213,70 +209,6 @@ TEST_F(Places, LinksAreFiles)
   }
 }
 
-TEST_F(Places, LinksStayWhenTheirFileIsReplaced)
-{
-  for (const Output& output : outputs)
-  {
-    const std::string ending = output.ending;
-    const std::string plain = this->path("plain" + ending);
-    ASSERT_EQ(convert(good(output.file), plain), Seen{});
-    const std::string file = this->write("file" + ending, "old");
-    fs::create_symlink("file" + ending, this->path("link" + ending));
-    fs::create_symlink("new" + ending, this->path("dangling" + ending));
-    fs::create_hard_link(file, this->path("hard" + ending));
-    EXPECT_EQ(convert(good(output.file), this->path("link" + ending)), Seen{});
-    EXPECT_EQ(convert(good(output.file), this->path("dangling" + ending)), Seen{});
-    EXPECT_TRUE(fs::is_symlink(this->path("link" + ending)));
-    EXPECT_EQ(content(file), content(plain));
-    EXPECT_EQ(content(this->path("new" + ending)), content(plain));
-    EXPECT_EQ(content(this->path("hard" + ending)), "old"); // the other name is another file now
-  }
-}
-
-/// As a user who may not write there; root may write everywhere.
-TEST_F(Places, ReadOnlyFolders)
-{
-  for (const Kind& kind : kinds)
-  {
-    fs::copy_file(file_of(kind), this->path(std::string(kind.name) + kind.ending));
-  }
-  std::vector<std::string> before = names_in(this->folder());
-  ASSERT_EQ(::chmod(this->folder().c_str(), 0555), 0);
-  const Ended ended = run_apart(
-    [&]
-    {
-      if (!become_nobody() || ::access(this->folder().c_str(), R_OK | X_OK) != 0)
-      {
-        return std::string("skip");
-      }
-      std::string wrong;
-      for (const Kind& kind : kinds)
-      {
-        const std::string path = this->path(std::string(kind.name) + kind.ending);
-        const Seen seen = look(path, kind.kind);
-        wrong += seen.status == GRANULAR_OK ? "" : seen.text + "\n";
-      }
-      for (const Output& output : outputs)
-      {
-        const std::string path = this->path(std::string("new") + output.ending);
-        const Seen seen = convert(good(output.file), path);
-        wrong += seen == Seen{ GRANULAR_IO_ERROR, path + ": cannot write: Permission denied" }
-          ? ""
-          : seen.text + "\n";
-      }
-      return wrong;
-    });
-  ASSERT_EQ(::chmod(this->folder().c_str(), 0755), 0);
-  if (ended.text == "skip")
-  {
-    GTEST_SKIP() << "root may write everywhere, and another user does not reach this folder";
-  }
-  EXPECT_EQ(ended.how, "done");
-  EXPECT_EQ(ended.text, "");
-  std::vector<std::string> after = names_in(this->folder());
-  EXPECT_TRUE(std::is_permutation(before.begin(), before.end(), after.begin(), after.end()));
-}
-
 /// A folder that may not be listed is not one without files.
 TEST_F(Places, FoldersThatMayNotBeRead)
 {
@@ -300,26 +232,6 @@ TEST_F(Places, FoldersThatMayNotBeRead)
   }
   const std::string refused = this->path("locked/") + ": cannot list the folder: Permission denied";
   EXPECT_EQ(ended.text, refused + "\n" + refused);
-}
-
-TEST_F(Places, TheUmaskDecidesWhoMayRead)
-{
-  for (const unsigned mask : { 0u, 022u, 077u })
-  {
-    const std::string folder = this->path(std::to_string(mask));
-    fs::create_directory(folder);
-    const mode_t before = ::umask(mask);
-    for (const Output& output : outputs)
-    {
-      EXPECT_EQ(convert(good(output.file), folder + "/new" + output.ending), Seen{});
-    }
-    ::umask(before);
-    EXPECT_EQ(names_in(folder).size(), std::size(outputs));
-    for (const std::string& name : names_in(folder))
-    {
-      EXPECT_EQ(fs::status(folder + "/" + name).permissions(), fs::perms(0666 & ~mask)) << name;
-    }
-  }
 }
 
 TEST_F(Places, NoHome)

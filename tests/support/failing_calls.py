@@ -8,7 +8,7 @@ import os
 import threading
 from typing import NamedTuple
 
-OPEN, STAT, READ, CREATE, WRITE, CLOSE, RENAME, UNLINK, CHANGE, SYNC, MEMORY, MAP, THREAD, LOCK, COPY = (1 << bit for bit in range(15))
+OPEN, STAT, READ, CREATE, WRITE, CLOSE, RENAME, UNLINK, CHANGE, SYNC, MEMORY, _, _, LOCK, COPY = (1 << bit for bit in range(15))
 SHORT, INTERRUPTED, END, ERROR = 1, 2, 3, 9
 ALWAYS = 2**30
 
@@ -32,7 +32,7 @@ class Fault(NamedTuple):
 
     @property
     def of_memory(self):
-        return bool(self.kinds & (MEMORY | MAP))
+        return self.kinds == MEMORY
 
 
 READER_FAULTS = [
@@ -66,7 +66,6 @@ WRITER_FAULTS = [
     Fault("waiting for the disk is interrupted", SYNC, INTERRUPTED, 0, True),
 ]
 MEMORY_FAULTS = [Fault("memory is refused", MEMORY, ERROR, errno.ENOMEM)]
-LARGE_FAULTS = [Fault("pages are refused", MAP, ERROR, errno.ENOMEM), Fault("a thread is refused", THREAD, ERROR, errno.EAGAIN, True)]
 LEAVING = Fault("a writer leaves its file", RENAME | UNLINK, ERROR, errno.EACCES, False, ALWAYS)
 
 
@@ -89,11 +88,6 @@ def leave(folder, use):
     return _with(LEAVING, 1, folder, use)[0]
 
 
-def wants_all():
-    """Whether the environment asks for all calls."""
-    return os.environ.get("GRANULAR_FAULTS") == "all"
-
-
 def each(one, folder, use, usual, most=0, prepare=lambda: None, cannot=False, memory=True):
     """Calls use() again and again, while one call after the other fails that is of this fault and, if it is of a file, has folder,
     without a slash at its end, in its path. Yields what use() returned, where a call failed.
@@ -104,7 +98,7 @@ def each(one, folder, use, usual, most=0, prepare=lambda: None, cannot=False, me
     cannot   the fault cannot come up; otherwise it must, once or more
     memory   as many blocks are to be there after use() as before
     """
-    most = 0 if wants_all() else most
+    most = 0 if os.environ.get("GRANULAR_FAULTS") == "all" else most
     number, delivered, fired = 1, 0, True
     gc.collect()
     gc.freeze()  # what was there before need not be looked at again and again

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of places share: a file of each kind, and everything that is read and written of a run.
-#ifndef granular_tests_faults_places_h
-#define granular_tests_faults_places_h
+// A file of each kind, and everything that the C interface reads and writes of a run.
+#ifndef granular_tests_faults_runs_h
+#define granular_tests_faults_runs_h
 
 #include "../c/handles.h"
 
@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
-namespace places
+namespace runs
 {
 namespace fs = std::filesystem;
 
@@ -76,12 +78,9 @@ void visit_values(const granular_array& array, const Add& add)
 
 /// Reads all frames and arrays of a run. Needs no memory but that of the interface, which lets no exception out.
 template <class Add>
-granular_status visit(const char* pattern, granular_kind kind, int threads, const Add& add) noexcept
+granular_status visit(
+  const char* pattern, const granular_open_options& options, const Add& add) noexcept
 {
-  granular_open_options options;
-  granular_open_options_init(&options);
-  options.kind = kind;
-  options.threads = threads;
   granular_run* opened = nullptr;
   if (const granular_status status = granular_open(&pattern, 1, &options, &opened))
   {
@@ -95,7 +94,7 @@ granular_status visit(const char* pattern, granular_kind kind, int threads, cons
   }
   granular_request request;
   granular_request_init(&request);
-  request.threads = threads;
+  request.threads = options.threads;
   for (std::int64_t number = 0; number < facts.frames; ++number)
   {
     granular_frame* read = nullptr;
@@ -122,12 +121,21 @@ granular_status visit(const char* pattern, granular_kind kind, int threads, cons
   return GRANULAR_OK;
 }
 
+inline granular_open_options options_of(granular_kind kind, int threads)
+{
+  granular_open_options options;
+  granular_open_options_init(&options);
+  options.kind = kind;
+  options.threads = threads;
+  return options;
+}
+
 /// Returns the values of all frames and arrays of a run.
 inline Seen look(
   const std::string& pattern, granular_kind kind = GRANULAR_KIND_AUTOMATIC, int threads = 2)
 {
   Seen seen;
-  const granular_status status = visit(pattern.c_str(), kind, threads,
+  const granular_status status = visit(pattern.c_str(), options_of(kind, threads),
     [&](const void* bytes, std::size_t count)
     { seen.text.append(static_cast<const char*>(bytes), count); });
   return status == GRANULAR_OK ? seen : failed(status);
@@ -179,7 +187,47 @@ inline Seen convert(const std::string& from, const std::string& to, int threads 
   return status == GRANULAR_OK ? Seen{} : failed(status);
 }
 
-/// What is written of each system: from the file of a kind, under an ending.
+/// The frames of a run, read once, to be written again and again.
+class Frames
+{
+public:
+  explicit Frames(const std::string& path)
+    : run_(open_run(path))
+  {
+    granular_run_facts facts = {};
+    EXPECT_EQ(granular_run_info(run_.get(), &facts), GRANULAR_OK) << message();
+    for (std::int64_t number = 0; number < facts.frames; ++number)
+    {
+      frames_.push_back(read_frame(run_, number));
+    }
+  }
+
+  granular_status write(const std::string& path, const granular_format& format) const
+  {
+    granular_writer* writer = nullptr;
+    granular_status status = granular_create(path.c_str(), &format, &writer);
+    if (status != GRANULAR_OK)
+    {
+      return status;
+    }
+    for (const FrameHandle& frame : frames_)
+    {
+      status = granular_write_frame(writer, frame.get());
+      if (status != GRANULAR_OK)
+      {
+        granular_abandon(writer); // which keeps the last error
+        return status;
+      }
+    }
+    return granular_finish(writer);
+  }
+
+private:
+  RunHandle run_;
+  std::vector<FrameHandle> frames_;
+};
+
+/// A file to write: the kind, the file of a real run that its frames come from, and its ending.
 struct Output
 {
   const char* name;
@@ -197,15 +245,16 @@ constexpr Output outputs[] = {
   { "subdomains", "decomposition_1000.vtk", ".decomposition" },
 };
 
-/// The names in a folder, hidden ones too, in no order.
-inline std::vector<std::string> names_in(const std::string& folder)
+/// The names and contents of all files of a folder, hidden ones too.
+inline std::map<std::string, std::string> files_of(const std::string& folder)
 {
-  std::vector<std::string> names;
+  std::map<std::string, std::string> files;
   for (const auto& entry : fs::directory_iterator(folder))
   {
-    names.push_back(entry.path().filename());
+    files[entry.path().filename()] =
+      fs::is_regular_file(entry.symlink_status()) ? content(entry.path()) : "";
   }
-  return names;
+  return files;
 }
 
 /// The file of a kind. That of Zstandard is written here.

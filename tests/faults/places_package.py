@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Strange names and places for the package and the command; and few open files."""
+import contextlib
+import io
+import os
+import resource
+import shutil
+import socket
+import stat
+import warnings
+
+import command
+
+import granular
+from granular.command import main
+
+warnings.simplefilter("ignore")
+GRAINS = os.path.join(command.GOOD, "grains_1000.dump")
+NAMES = {"a b": "a b", "quote'\"": "quote'\"", "new\nline": r"new\nline", "tab\t\x1b[31m": r"tab\t\x1b[31m", "back\\slash": "back\\slash",
+         "per%cent%d": "per%cent%d", "st*r": "st*r", "b[r]a?k": "b[r]a?k", "-dash": "-dash", "\u00e4\u20ac\U0001f600": "\u00e4\u20ac\U0001f600",
+         os.fsdecode(b"\xff\xfe"): r"\xff\xfe", "n" * 240: "n" * 240}
+shutil.rmtree("files", ignore_errors=True)
+os.mkdir("files")
+os.chdir("files")
+HERE = os.getcwd()
+
+
+def expect_error(kind, call, *words):
+    try:
+        call()
+    except kind as error:
+        text = str(error)
+        assert all(word in text for word in words) and "\n" not in text and text.encode(), text
+    else:
+        raise AssertionError(f"expected {kind} with {words}")
+
+
+def convert(*arguments, status=0):
+    """What the command said, in this process."""
+    with contextlib.redirect_stderr(io.StringIO()) as heard:
+        assert main(["convert", "--quiet", *arguments]) == status, heard.getvalue()
+    return heard.getvalue()
+
+
+# ---- names --------------------------------------------------------------------------------------
+plain = granular.open(GRAINS)[0].read()
+for name, shown in NAMES.items():
+    file = name + ".dump"
+    os.mkdir(name)
+    for path in (file, os.path.join(name, file)):
+        shutil.copy(GRAINS, path)
+        for spelled in (path, os.fsencode(path), os.path.abspath(path)):
+            assert (granular.open(spelled)[0]["id"] == plain["id"]).all()
+    assert granular.files(os.path.join(name, "*.dump")) == [os.path.join(HERE, name, file)]
+    expect_error(granular.Error, lambda: granular.open(file, kind="restart"), os.path.join(HERE, shown + ".dump"))  # noqa: B023
+    expect_error(FileNotFoundError, lambda: granular.open(name + ".none"), shown + ".none")  # noqa: B023
+    if "*" not in name and "%" not in name:
+        os.remove(file)
+        granular.write(file, plain)
+        assert command.content(file) == command.content(GRAINS), name
+    with open(name + ".log", "w") as log:
+        log.write("nothing\n")
+    expect_error(granular.Error, lambda: granular.read_log(name + ".log"), shown + ".log")  # noqa: B023
+    shutil.copy(GRAINS, name + "_7.stl")
+    if "\udcff" in name:
+        expect_error(ValueError, lambda: granular.write_series([name + "_7.stl"], 1, path="no.series"), "UTF-8", shown)  # noqa: B023
+    else:
+        assert os.path.exists(granular.write_series([name + "_7.stl"], 1)), name
+for call in (granular.open, granular.files, lambda path: granular.write(path, plain)):
+    expect_error(ValueError, lambda: call("nul\0.dump"), "null")  # noqa: B023
+for name in ("new\nline", os.fsdecode(b"\xff\xfe"), "-dash", "st*r"):
+    shutil.copy(GRAINS, name + ".dump")
+    convert("--", name + ".dump", name + ".csv")
+    assert os.path.exists(name.replace("*", "1000") + ".csv"), os.listdir(".")
+for name in ("new\nline", os.fsdecode(b"\xff\xfe")):
+    out, said = command.granular("check", "--", name + ".dump", env={**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0"})
+    assert out == NAMES[name] + ".dump: 1 frames, 1200 rows, nothing is wrong\n" and not said, (name, out, said)
+
+# ---- no files, and links ------------------------------------------------------------------------
+os.mkdir("places")
+os.chdir("places")
+os.mkfifo("pipe")
+os.mkdir("folder")
+bound = socket.socket(socket.AF_UNIX)
+bound.bind("socket")
+for target, link in (("pipe", "to_pipe"), ("folder", "to_folder"), ("loop", "loop"), ("none", "dangling")):
+    os.symlink(target, link)
+DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory"
+for place, why in {"pipe": DEVICE, "to_pipe": DEVICE, "socket": DEVICE, "/dev/null": DEVICE, "/dev/zero": DEVICE, "/dev/full": DEVICE,
+                   "folder": FOLDER, "folder/": FOLDER, "to_folder": FOLDER, "loop": "Too many levels", "dangling": "No such file"}.items():
+    expect_error(OSError, lambda: granular.open(place), why)  # noqa: B023
+    expect_error(OSError, lambda: granular.files(place), why)  # noqa: B023
+before = {name: os.lstat(name).st_mode for name in os.listdir(".")}
+for place in ("pipe", "folder", "socket", "/dev/full", "loop", "none/none"):  # what is written in Python; for dumps, tests/bytes
+    os.symlink(place, "out.csv")
+    said = convert(GRAINS, "out.csv", status=1)
+    assert "out.csv" in said, said
+    os.remove("out.csv")
+    assert {name: os.lstat(name).st_mode for name in os.listdir(".")} == before, (place, os.listdir("."))
+
+with open("file.csv", "w") as file:
+    file.write("old")
+os.chmod("file.csv", 0o640)
+os.symlink("file.csv", "link.csv")
+os.symlink("new.csv", "new_link.csv")
+for link in ("link.csv", "new_link.csv"):
+    convert(GRAINS, link)
+    assert os.path.islink(link)
+assert stat.S_IMODE(os.stat("file.csv").st_mode) == 0o640
+assert command.content("file.csv") == command.content("new.csv") != b"old"
+before = os.umask(0o077)
+convert(GRAINS, "mask.csv")
+os.umask(before)
+assert stat.S_IMODE(os.stat("mask.csv").st_mode) == 0o600
+
+# ---- few open files -----------------------------------------------------------------------------
+for i in range(300):
+    os.symlink(GRAINS, f"s_{i}.dump")
+said = command.granular("check", "s_*.dump", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64)))
+assert "nothing is wrong" in said[0], said
+print("all places were tried")
