@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A day of use in minutes: opens, steps, plays, filters, pictures, files and errors, again and again, beside a simulation that appends.
+"""A day of use in minutes: opens, steps, plays, filters, pictures, files, states and errors, again and again, beside a simulation
+that appends.
 
-soak.py MINUTES [ROUNDS]: goes on for that long, or for that many rounds. Nothing is kept between rounds but one view: ParaView keeps
-memory and threads of each view. It prints memory, descriptors and threads each minute. At its end it fits slopes over the second half,
-and raises if memory grows by more than 1 MiB in 1000 updates, or if descriptors or threads grow."""
+soak.py MINUTES [ROUNDS]: goes on for that long, or for that many rounds. Nothing is kept between rounds. It prints memory,
+descriptors and threads each minute, less what ParaView itself keeps of each view. At its end it fits slopes over the second half, and
+raises if memory grows by more than 1 MiB in 1000 updates, or if descriptors or threads grow. Memory is also told by activity.
+"""
 import contextlib
 import ctypes
 import gc
@@ -17,10 +19,13 @@ import numpy
 from paraview import simple
 
 SAMPLES = os.environ["GRANULAR_SAMPLES"]
+MINUTES = float(sys.argv[1])
+ROUNDS = int(sys.argv[2]) if len(sys.argv) > 2 else None
 MOST_PER_THOUSAND = 1.0  # MiB per 1000 updates
 TRIM = ctypes.CDLL(None).malloc_trim  # what is free is given back, so that the rest is what is held
+
 SIMULATION = r"""
-import os, sys, time
+import os, random, sys, time
 path, step = sys.argv[1], 0
 while True:
     rows = "".join(f"{i} 1 {(i * 7 + step) % 64 / 8} {i % 32 / 4} {i % 128 / 16} 0.05 {step} 0 0\n" for i in range(1, 1001))
@@ -41,32 +46,52 @@ def sample(*path):
 
 
 class Use:
-    """Activities, each of which leaves nothing behind, and the number of updates."""
+    """What is done, and how often a pipeline was updated."""
 
     def __init__(self):
         self.updates = 0
         self.random = numpy.random.default_rng(1)
-        self.view = simple.CreateView("RenderView")
-        self.view.ViewSize = [300, 200]
+        self.views = 0  # ParaView keeps of each one threads, a descriptor and memory, whatever is shown
 
-    def update(self, source, moment=None, points=None):
+    def update(self, source, moment=None):
         self.updates += 1
         granular.update(source, moment)
-        found = source.GetDataInformation().GetNumberOfPoints()
-        assert points in (None, found), (found, points)
+
+    def points(self, source):
+        return source.GetDataInformation().GetNumberOfPoints()
+
+    def new_view(self):
+        self.views += 1
+        view = simple.CreateView("RenderView")
+        view.ViewSize = [300, 200]
+        return view
+
+    def empty_view(self):
+        """A view without anything of this plugin."""
+        view, sphere = self.new_view(), simple.Sphere()
+        simple.Show(sphere, view)
+        simple.SaveScreenshot("sphere.png", view)
+        simple.Delete(sphere)
+        simple.Delete(view)
+
+    # ---- activities; each leaves nothing behind ------------------------------------------------
 
     def open_and_step(self):
-        """Every frame of files of each class, forwards and back."""
-        for path in (sample("grains.dump"), sample("bonds", "chain.data"), sample("bonds", "chain_bonds.dump"),
-                     sample("restart", "fibres.40000.restart"), sample("euler_*.vtk")):
+        """Every frame of files of each class, forwards and back, with other arrays."""
+        for path, expected in ((sample("grains.dump"), 1200), (sample("bonds", "chain.data"), None),
+                               (sample("bonds", "chain_bonds.dump"), None), (sample("restart", "fibres.40000.restart"), None),
+                               (sample("euler_*.vtk"), 112)):
             reader = granular.reader(path)
             times = list(reader.TimestepValues) if hasattr(reader.TimestepValues, "__len__") else [reader.TimestepValues]
             for moment in times + times[::-1]:
                 self.update(reader, moment)
+            if expected:
+                self.update(reader, times[-1])
+                assert self.points(reader) == expected, (path, self.points(reader))
             simple.Delete(reader)
 
     def change(self):
-        """Other arrays, coordinates, strides and threads."""
+        """Other arrays, coordinates, strides, regions and threads."""
         reader = simple.GranularDumpReader(FileNames=[sample("grains.dump")])
         for _ in range(20):
             reader.SortById = int(self.random.integers(2))
@@ -74,17 +99,19 @@ class Use:
             reader.Threads = int(self.random.integers(3))
             reader.Coordinates = ["Absolute", "Unwrapped", "Scaled"][self.random.integers(3)]
             reader.PointArrayStatus = ["id", "radius", "v"][:self.random.integers(1, 4)]
-            self.update(reader, float(self.random.choice([1000, 2000])), 1200 // reader.Stride)
+            self.update(reader, float(self.random.choice([1000, 2000])))
+            assert self.points(reader) == 1200 // reader.Stride, (self.points(reader), reader.Stride)
         simple.Delete(reader)
 
     def follow(self):
         """A file that grows, and is now and then replaced."""
         reader = simple.GranularDumpReader(FileNames=[os.path.abspath("growing.dump")], RefreshOnUpdate=1)
         for _ in range(5):
-            self.update(reader, None, 1000)
+            self.update(reader)
             frame = granular.fetch(reader)
-            assert (frame["v"][:, 0] == frame["timestep"]).all()
+            assert len(frame["points"]) == 1000 and (frame["v"][:, 0] == frame["timestep"]).all()
             simple.ReloadFiles(reader)
+            self.updates += 1
         simple.Delete(reader)
 
     def filters(self):
@@ -114,27 +141,43 @@ class Use:
             simple.Delete(source)
 
     def look(self):
-        """Particles, an animation and a picture."""
+        """Spheres, colours, an animation and a picture."""
+        view = self.new_view()
         reader = granular.reader(sample("grains.dump"))
-        granular.show(reader, self.view)
+        granular.show(reader, view)
         scene = simple.GetAnimationScene()
         scene.UpdateAnimationUsingDataTimeSteps()
         scene.Play()
         self.updates += len(reader.TimestepValues)
-        simple.SaveScreenshot("picture.png", self.view)
+        simple.SaveScreenshot("picture.png", view)
         assert os.path.getsize("picture.png") > 1000
         simple.Delete(reader)
+        simple.Delete(view)
 
     def write(self):
-        """Files, one of which is read back."""
+        """Files, read back."""
         reader = granular.reader(sample("grains.dump"))
         self.update(reader, 2000)
         for name in ("saved.dump", "saved.dump.gz", "saved.vtp"):
             granular.save(reader, name)
         simple.Delete(reader)
         again = granular.reader("saved.dump.gz")
-        self.update(again, None, 1200)
+        self.update(again)
+        assert self.points(again) == 1200
         simple.Delete(again)
+
+    def state(self):
+        """A state that is saved, and loaded."""
+        reader = granular.reader(sample("grains.dump"))
+        self.update(reader)
+        for view in simple.GetRenderViews():
+            simple.Delete(view)
+        simple.SaveState("session.pvsm")
+        simple.Delete(reader)
+        granular.load_state("session.pvsm")
+        for loaded in list(simple.GetSources().values()):
+            self.update(loaded)
+            simple.Delete(loaded)
 
     def errors(self):
         """A damaged file, and one that is not there."""
@@ -159,31 +202,51 @@ def status():
     return int(lines["VmRSS"].split()[0]) / 1024, len(os.listdir("/proc/self/fd")), int(lines["Threads"])
 
 
-def main(minutes, rounds=None):
+def cost_of_views(use):
+    """What ParaView keeps of a view: MiB, descriptors, threads."""
+    use.empty_view()
+    before = status()
+    for _ in range(10):
+        use.empty_view()
+    return [(after - first) / 10 for after, first in zip(status(), before)]
+
+
+def main():
+    activities = ["open_and_step", "change", "follow", "filters", "look", "write", "state", "errors"]
     granular.load_plugin(ns=vars(simple))
-    use, seen = Use(), []
+    use, rounds, seen, grown = Use(), 0, [], dict.fromkeys(activities, 0.0)
     start = told = time.monotonic()
     simulation = subprocess.Popen(["/usr/bin/python3", "-c", SIMULATION, "growing.dump"])
     try:
         while not os.path.exists("growing.dump"):
             time.sleep(0.1)
-        while time.monotonic() - start < 60 * minutes and (rounds is None or len(seen) < rounds):
-            for activity in (use.open_and_step, use.change, use.follow, use.filters, use.look, use.write, use.errors):
-                activity()
-            seen.append((use.updates, *status()))
-            if time.monotonic() - told > 60 or len(seen) == 1:
+        half = []
+        cost = cost_of_views(use)
+        print("soak | a view of ParaView with a sphere keeps %.2f MiB, %g descriptors, %g threads" % tuple(cost), flush=True)
+        while time.monotonic() - start < 60 * MINUTES and (ROUNDS is None or rounds < ROUNDS):
+            for name in activities:
+                before = status()[0]
+                getattr(use, name)()
+                if half:
+                    grown[name] += status()[0] - before
+            rounds += 1
+            seen.append((use.updates, *(now - use.views * each for now, each in zip(status(), cost))))
+            if time.monotonic() - start > 30 * MINUTES or (ROUNDS is not None and 2 * rounds >= ROUNDS):
+                half.append(seen[-1])
+            if time.monotonic() - told > 60 or rounds == 1:
                 told = time.monotonic()
-                print("soak | %.1f min | %d rounds | %d updates | %.1f MiB | %d descriptors | %d threads" %
-                      ((told - start) / 60, len(seen), *seen[-1]), flush=True)
+                print("soak | %.1f min | %d rounds | %d updates | %.1f MiB | %d descriptors | %d threads, without those of %d views"
+                      % ((told - start) / 60, rounds, *seen[-1], use.views), flush=True)
     finally:
         simulation.kill()
         simulation.wait()
-    half = numpy.array(seen[len(seen) // 2:], dtype=float)
-    slope = 1000 * numpy.polyfit(half[:, 0], half[:, 1], 1)[0]
-    print("soak | %d rounds, %d updates; from update %d on, memory by %+.3f MiB per 1000 updates, descriptors by %+d, threads by %+d"
-          % (len(seen), use.updates, half[0][0], slope, *(half[-1] - half[0])[2:]))
-    assert slope < MOST_PER_THOUSAND, "memory grew"
-    assert (half[-1] <= half[0])[2:].all(), "descriptors or threads grew"
+    print("soak | second half, by activity, MiB: " + ", ".join(f"{name} {mib:+.2f}" for name, mib in grown.items()))
+    table = numpy.array(half, dtype=float)
+    per_thousand = [1000 * numpy.polyfit(table[:, 0], table[:, column], 1)[0] for column in (1, 2, 3)]
+    print("soak | %d rounds, %d updates; from update %d on, per 1000 updates: memory %+.3f MiB, descriptors %+.3f, threads %+.3f"
+          % (rounds, use.updates, half[0][0], *per_thousand))
+    assert per_thousand[0] < MOST_PER_THOUSAND, "memory grew"
+    assert half[-1][2] <= half[0][2] and half[-1][3] <= half[0][3], "descriptors or threads grew"
 
 
-main(float(sys.argv[1]), *map(int, sys.argv[2:3]))
+main()
