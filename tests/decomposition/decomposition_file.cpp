@@ -259,10 +259,6 @@ TEST(DecompositionFile, OddBoundsAreHandedOn)
     granular::Notices notices;
     EXPECT_EQ(error_of([&] { check_subdomains(subdomains, {}, where, notices, progress); }),
       "run.vtk:7: " + said);
-    check_subdomains(subdomains, { .bounds = Answer::Notice }, where, notices, progress);
-    EXPECT_EQ(lines_of(notices), "run.vtk:7: " + said + "\n");
-    check_subdomains(subdomains, { .bounds = Answer::None }, where, notices, progress);
-    EXPECT_EQ(notices.size(), 1u);
   }
 }
 

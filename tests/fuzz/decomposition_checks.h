@@ -42,10 +42,8 @@ inline void use_subdomains(const Decomposition& all)
   {
     return; // time
   }
-  const SubdomainChecks checks = { Answer::None, Answer::Notice, Answer::Notice };
   Progress progress;
   Notices notices;
-  check_subdomains(all.subdomains, checks, {}, notices, progress);
   const std::int64_t most = 8 * static_cast<std::int64_t>(all.subdomains.size());
   require(
     make_voxels(all.subdomains, {}, Executor(1), progress).number_of_points == most, "points");
@@ -53,6 +51,8 @@ inline void use_subdomains(const Decomposition& all)
   require(
     bounds.lo[0] <= bounds.hi[0] && bounds.lo[1] <= bounds.hi[1] && bounds.lo[2] <= bounds.hi[2],
     "bounds of all");
+  const SubdomainChecks checks = { Answer::Notice, Answer::Notice };
+  check_subdomains(all.subdomains, checks, { .line = 1 }, notices, progress);
 }
 
 inline void read_subdomains(const ByteSource& source, const FrameEntry& entry)

@@ -18,7 +18,7 @@ READING = (
     ("local", r"granular/local/", "fetch_particles|id_directory|join|particle_values"),
     ("euler", r"granular/euler/(euler_|regular_grids)", None),
     ("decomposition", r"granular/decomposition/",
-     "count_particles|find_process_grid|particle_bounds|process_grid|slab_finder"),
+     "count_particles|find_process_grid|particle_bounds|process_grid"),
     ("restart", r"granular/restart/", None),
     ("data_file", r"granular/data_file/", None),
     ("vtk_files", r"granular/vtk_files/", None),

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/decomposition/overlaps.h"
-#include "granular/decomposition/process_grid.h"
+#include "granular/decomposition/subdomain_tree.h"
 #include "granular/decomposition/subdomains.h"
 
 #include "granular/geometry/compensated.h"
 #include "granular/numbers/number_print.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace granular
 {
 namespace
 {
+/// Two subdomains overlap by more than this part of the box's edge along each axis, gaps have more than this part of its
+/// volume: less is rounding.
+constexpr double tolerance = 1e-9;
+
 /// Pairs beyond this are not counted: there may be n^2 of them.
 constexpr std::int64_t most_overlaps = 1'000'000;
 
@@ -49,40 +50,29 @@ bool has_bounds(const Subdomain& subdomain)
   return right;
 }
 
-std::string bounds_text(std::span<const Subdomain> subdomains, std::int64_t without)
+void check_bounds(std::span<const Subdomain> subdomains, const Where& where)
 {
-  std::string text = "expected finite bounds, lower ones not above upper ones, got " +
-    std::to_string(without) + (without == 1 ? " subdomain" : " subdomains") + " without:";
-  int named = 0;
+  std::int64_t without = 0;
+  std::string named;
   for (const Subdomain& each : subdomains)
   {
-    if (!has_bounds(each) && named < 2)
+    if (!has_bounds(each) && ++without <= 2)
     {
-      text += std::string(named == 0 ? "" : ",") + " process " + std::to_string(each.rank) +
-        " from " + printed(each.lo) + " to " + printed(each.hi);
-      ++named;
+      named += (without == 1 ? " process " : ", process ") + std::to_string(each.rank) + " from " +
+        printed(each.lo) + " to " + printed(each.hi);
     }
   }
-  return text;
-}
-
-std::string overlap_text(std::span<const Subdomain> subdomains, const Overlaps& found)
-{
-  const Subdomain& a = subdomains[static_cast<std::size_t>(found.first.first)];
-  const Subdomain& b = subdomains[static_cast<std::size_t>(found.first.second)];
-  Vector3 shared;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  if (without > 0)
   {
-    shared[axis] = std::min(a.hi[axis], b.hi[axis]) - std::max(a.lo[axis], b.lo[axis]);
+    throw FormatError("expected finite bounds, lower ones not above upper ones, got " +
+        std::to_string(without) + (without == 1 ? " subdomain" : " subdomains") +
+        " without:" + named,
+      where);
   }
-  return "expected subdomains that share no more than faces, got " +
-    std::string(found.more ? "at least " : "") + std::to_string(found.pairs) +
-    (found.pairs == 1 ? " pair that overlaps" : " pairs that overlap") + ": processes " +
-    std::to_string(a.rank) + " and " + std::to_string(b.rank) + " share " + printed(shared);
 }
 
-/// What two may share along each axis; below 0 where the box is flat, so that all share that.
-Vector3 allowed_overlap(const Subdomain& bounds, double tolerance)
+/// The width along each axis that two may share; below 0 where the box is flat, so that all share that.
+Vector3 allowed_overlap(const Subdomain& bounds)
 {
   Vector3 allowed;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -94,134 +84,119 @@ Vector3 allowed_overlap(const Subdomain& bounds, double tolerance)
   return allowed;
 }
 
-/// Powers of two that make all coordinates about 1, so that no volume is too large or too small for a double.
-Vector3 scales_for(const Subdomain& bounds)
+/// Returns true if two boxes, or one and itself, overlap by more than `allowed`.
+bool overlap(const auto& a, const auto& b, const Vector3& allowed)
 {
-  Vector3 scales;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const auto along = [&](std::size_t axis)
   {
-    const double reach = std::max(std::abs(bounds.lo[axis]), std::abs(bounds.hi[axis]));
-    scales[axis] = std::ldexp(1, std::clamp(-std::ilogb(reach), -1022, 1022));
-  }
-  return scales;
+    return !(allowed[axis] >= 0) ||
+      (a.lo[axis] < b.hi[axis] - allowed[axis] && b.lo[axis] < a.hi[axis] - allowed[axis]);
+  };
+  return along(0) && along(1) && along(2);
 }
 
-/// Adds the volume, to about 100 bits.
-void add_volume(CompensatedSum& sum, const Subdomain& subdomain, const Vector3& scales)
+/// Pairs of overlapping subdomains.
+struct Overlaps
 {
-  std::array<Twofold, 3> edges;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    CompensatedSum edge;
-    edge.add(scales[axis] * subdomain.hi[axis]);
-    edge.add(-scales[axis] * subdomain.lo[axis]);
-    edges[axis] = edge.twofold();
-  }
-  CompensatedSum area;
-  area.add_product(edges[0], edges[1]);
-  sum.add_product(area.twofold(), edges[2]);
-}
+  std::int64_t pairs = 0;
+  std::pair<std::size_t, std::size_t> first = {}; ///< the counted pair with the lowest numbers
+};
 
-/// The part of the box that is in no subdomain, if no two overlap; 0 where no more than rounding is left.
-double gap_of(std::span<const Subdomain> subdomains, const Subdomain& bounds, Progress& progress)
+Overlaps find_overlaps(
+  std::span<const Subdomain> subdomains, const Vector3& allowed, Progress& progress)
 {
-  constexpr std::size_t lot = 65536;
-  const Vector3 scales = scales_for(bounds);
-  CompensatedSum volume;
-  add_volume(volume, bounds, scales);
-  CompensatedSum rest = volume;
-  CompensatedSum taken;
-  const auto n = static_cast<double>(subdomains.size());
+  constexpr std::size_t report_interval = 8192;
+  std::vector<SubdomainTree::Node> leaves; // thick enough to overlap at all
   for (std::size_t i = 0; i < subdomains.size(); ++i)
   {
-    if (i % lot == 0)
+    if (overlap(subdomains[i], subdomains[i], allowed))
     {
-      progress.step(static_cast<double>(i) / n);
+      leaves.push_back({ subdomains[i].lo, subdomains[i].hi, static_cast<std::int64_t>(i), 0 });
     }
-    add_volume(taken, subdomains[i], scales);
   }
-  const Twofold sum = taken.twofold();
-  rest.add(Twofold{ -sum.hi, -sum.lo });
-  const double gap = rest.value() / volume.value();
-  return gap > std::ldexp(n * n, -100) ? gap : 0;
+  const SubdomainTree tree(leaves);
+  Overlaps found;
+  for (std::size_t i = 0; i < leaves.size() && found.pairs < most_overlaps; ++i)
+  {
+    if (i % report_interval == 0)
+    {
+      progress.step(static_cast<double>(i) / static_cast<double>(leaves.size()));
+    }
+    tree.search([&](const auto& node) { return overlap(leaves[i], node, allowed); },
+      [&](const auto& other)
+      {
+        if (other.number > leaves[i].number)
+        {
+          const std::pair<std::size_t, std::size_t> pair = { leaves[i].number, other.number };
+          found.first = found.pairs == 0 ? pair : std::min(found.first, pair);
+          ++found.pairs;
+        }
+        return found.pairs == most_overlaps;
+      });
+  }
+  return found;
 }
 
-bool is_flat(const Subdomain& bounds)
+std::string overlap_text(std::span<const Subdomain> subdomains, const Overlaps& found)
 {
-  return bounds.lo[0] == bounds.hi[0] || bounds.lo[1] == bounds.hi[1] ||
-    bounds.lo[2] == bounds.hi[2];
+  const Subdomain& a = subdomains[found.first.first];
+  const Subdomain& b = subdomains[found.first.second];
+  Vector3 shared;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    shared[axis] = std::min(a.hi[axis], b.hi[axis]) - std::max(a.lo[axis], b.lo[axis]);
+  }
+  return "expected subdomains that share no more than faces, got " +
+    std::string(found.pairs == most_overlaps ? "at least " : "") + std::to_string(found.pairs) +
+    (found.pairs == 1 ? " pair that overlaps" : " pairs that overlap") + ": processes " +
+    std::to_string(a.rank) + " and " + std::to_string(b.rank) + " share " + printed(shared);
 }
 
-/// Whether those that are not empty form a grid in the bounds: no two overlap then, and there are no gaps.
-bool is_grid(std::span<const Subdomain> subdomains, const Subdomain& bounds)
+/// The part of the box that is in no subdomain, if no two overlap; nan in a flat box.
+double gap_of(std::span<const Subdomain> subdomains, const Subdomain& bounds)
 {
-  const auto is_empty = [&](const Subdomain& each)
+  CompensatedSum gap;
+  gap.add(1);
+  for (const Subdomain& each : subdomains)
   {
-    const auto is_empty_along = [&](std::size_t axis)
-    { return each.lo[axis] == each.hi[axis] && bounds.lo[axis] < bounds.hi[axis]; };
-    return is_empty_along(0) || is_empty_along(1) || is_empty_along(2);
-  };
-  std::vector<Subdomain> others;
-  if (std::ranges::any_of(subdomains, is_empty))
-  {
-    std::ranges::remove_copy_if(subdomains, std::back_inserter(others), is_empty);
-    subdomains = others;
+    double part = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      // half the edges: whole ones may be too large for a double
+      part *= (each.hi[axis] / 2 - each.lo[axis] / 2) / (bounds.hi[axis] / 2 - bounds.lo[axis] / 2);
+    }
+    gap.add(-part);
   }
-  const std::optional<ProcessGrid> grid = find_process_grid(subdomains);
-  if (!grid)
-  {
-    return false;
-  }
-  const auto reaches = [&](std::size_t axis)
-  {
-    return grid->cuts[axis].front() == bounds.lo[axis] &&
-      grid->cuts[axis].back() == bounds.hi[axis];
-  };
-  return reaches(0) && reaches(1) && reaches(2);
+  return gap.value();
 }
 }
 
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
   const Where& where, Notices& notices, Progress& progress)
 {
-  progress.step(0);
-  const auto without = static_cast<std::int64_t>(std::count_if(
-    subdomains.begin(), subdomains.end(), [](const Subdomain& each) { return !has_bounds(each); }));
-  std::vector<Subdomain> others;
-  if (without > 0)
-  {
-    tell(checks.bounds, bounds_text(subdomains, without), where, notices);
-    std::copy_if(subdomains.begin(), subdomains.end(), std::back_inserter(others), has_bounds);
-    subdomains = others;
-  }
+  check_bounds(subdomains, where);
   if (checks.overlap == Answer::None && checks.gap == Answer::None)
   {
     return;
   }
   const Subdomain bounds = bounds_of(subdomains);
-  if (bounds.lo == bounds.hi || is_grid(subdomains, bounds))
+  if (bounds.lo == bounds.hi)
   {
     return;
   }
-  PartialProgress part(progress);
-  part.set_part(0.1, 0.9);
-  const Overlaps found =
-    find_overlaps(subdomains, allowed_overlap(bounds, checks.tolerance), most_overlaps, part);
+  const Overlaps found = find_overlaps(subdomains, allowed_overlap(bounds), progress);
   if (found.pairs > 0)
   {
     tell(checks.overlap, overlap_text(subdomains, found), where, notices);
+    return;
   }
-  else if (without == 0 && checks.gap != Answer::None && !is_flat(bounds))
+  const double gap = checks.gap == Answer::None ? 0 : gap_of(subdomains, bounds);
+  if (gap > tolerance)
   {
-    part.set_part(0.9, 1);
-    const double gap = gap_of(subdomains, bounds, part);
-    if (gap > checks.tolerance)
-    {
-      tell(checks.gap,
-        "expected subdomains that fill the box from " + printed(bounds.lo) + " to " +
-          printed(bounds.hi) + ", got gaps of " + to_text(gap) + " of its volume",
-        where, notices);
-    }
+    tell(checks.gap,
+      "expected subdomains that fill the box from " + printed(bounds.lo) + " to " +
+        printed(bounds.hi) + ", got gaps of " + to_text(gap) + " of its volume",
+      where, notices);
   }
 }
 }

@@ -2,15 +2,15 @@
 #include "granular/decomposition/count_particles.h"
 
 #include "granular/common/error.h"
-#include "granular/decomposition/slab_finder.h"
 #include "granular/decomposition/subdomain_tree.h"
-#include "granular/numbers/number_print.h"
 #include "granular/particles/absolute_positions.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -20,65 +20,113 @@ namespace granular
 namespace
 {
 constexpr std::int64_t rows_per_chunk = 65536;
+constexpr std::size_t bins_per_slab = 8;
 
 /// Each worker has counts of its own, up to 1 GiB of them together: beyond that there are fewer workers.
 constexpr std::size_t most_counts = std::size_t{ 1 } << 27;
 
+/// Finds the slab between cuts that holds a coordinate: lo <= x < hi, in the last one x <= hi, and where cuts coincide the
+/// last that begins there. Only comparisons with cuts decide; bins tell with which. The bin of a coordinate never falls as x
+/// grows, in any rounding, so all cuts in lower bins are below x, and all in higher ones above.
+class Slabs
+{
+public:
+  /// Throws Error.
+  Slabs(const std::vector<double>& cuts, char axis)
+  {
+    if (!std::ranges::all_of(cuts, [](double cut) { return std::isfinite(cut); }) ||
+      !std::ranges::is_sorted(cuts))
+    {
+      throw Error(
+        std::string("expected finite cuts along ") + axis + ", none below the one before");
+    }
+    if (cuts.size() < 2)
+    {
+      return;
+    }
+    lo_ = cuts.front();
+    hi_ = cuts.back();
+    inner_ = std::span(cuts).subspan(1, cuts.size() - 2);
+    bins_.resize(bins_per_slab * (cuts.size() - 1) + 1);
+    const double scale = static_cast<double>(bins_.size() - 1) / (hi_ - lo_);
+    if (std::isnormal(scale)) // else the length is 0, or too small or too large to divide by
+    {
+      origin_ = lo_;
+      scale_ = scale;
+    }
+    std::vector<std::int64_t> counts(bins_.size());
+    for (const double cut : inner_)
+    {
+      bins_[this->bin_of(cut)].cut = cut;
+      ++counts[this->bin_of(cut)];
+    }
+    std::int64_t below = 0;
+    for (std::size_t bin = 0; bin < bins_.size(); below += counts[bin++])
+    {
+      bins_[bin].slab = counts[bin] > 1 ? -1 : below;
+    }
+  }
+
+  /// Returns the number of the slab, or -1 if none holds the coordinate.
+  std::int64_t find(double x) const noexcept
+  {
+    if (!(lo_ <= x && x <= hi_))
+    {
+      return -1;
+    }
+    const Bin& bin = bins_[this->bin_of(x)];
+    return bin.slab < 0 ? std::ranges::upper_bound(inner_, x) - inner_.begin()
+                        : bin.slab + std::int64_t{ x >= bin.cut };
+  }
+
+private:
+  struct Bin
+  {
+    double cut = HUGE_VAL; ///< the only one in the bin
+    std::int64_t slab = 0; ///< below it; -1: there are several
+  };
+
+  std::size_t bin_of(double x) const noexcept
+  {
+    return static_cast<std::size_t>(static_cast<std::int64_t>((x - origin_) * scale_));
+  }
+
+  double lo_ = HUGE_VAL;
+  double hi_ = -HUGE_VAL;
+  double origin_ = 0;
+  double scale_ = 0;              ///< bins a unit of length
+  std::span<const double> inner_; ///< the cuts between the first and the last
+  std::vector<Bin> bins_;
+};
+
 /// Finds the place of a point in a grid, or the one behind the last: outside.
 struct InGrid
 {
-  InGrid(const std::array<SlabFinder, 3>& finders, const ProcessGrid& grid)
-    : slabs(finders)
-    , guesses{ finders[0].guess(), finders[1].guess(), finders[2].guess() }
-    , py(grid.counts()[1])
-    , pz(grid.counts()[2])
-    , outside(grid.size())
-  {
-  }
-
   std::int64_t operator()(const double* x) const noexcept
   {
-    std::int32_t i = guesses[0](x[0]);
-    std::int32_t j = guesses[1](x[1]);
-    std::int32_t k = guesses[2](x[2]);
-    if ((i | j | k) < 0)
-    {
-      i = slabs[0].search(x[0]);
-      j = slabs[1].search(x[1]);
-      k = slabs[2].search(x[2]);
-      if ((i | j | k) < 0)
-      {
-        return outside;
-      }
-    }
-    return (i * py + j) * pz + k;
+    const std::int64_t i = slabs[0].find(x[0]);
+    const std::int64_t j = slabs[1].find(x[1]);
+    const std::int64_t k = slabs[2].find(x[2]);
+    return (i | j | k) < 0 ? outside : (i * py + j) * pz + k;
   }
 
-  const std::array<SlabFinder, 3>& slabs;
-  const std::array<SlabFinder::Guess, 3> guesses;
+  const std::array<Slabs, 3>& slabs;
   std::int64_t py;
   std::int64_t pz;
   std::int64_t outside;
 };
-
-std::array<SlabFinder, 3> slabs_of(const ProcessGrid& grid)
-{
-  const auto& [x, y, z] = grid.cuts;
-  return { SlabFinder(x), SlabFinder(y), SlabFinder(z) };
-}
 
 bool is_finite(const double* x) noexcept
 {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
 
-using Entry = SubdomainTree::Entry;
 using Node = SubdomainTree::Node;
 
-/// How many axes have lo <= x < hi; -1 where not all have lo <= x <= hi.
-int axes_inside(const Entry& entry, const double* x) noexcept
+/// Returns how many axes have lo <= x < hi; -1 where not all have lo <= x <= hi.
+int axes_inside(const Node& box, const double* x) noexcept
 {
-  const auto& [lo, hi, number] = entry;
+  const auto& [lo, hi, number, behind] = box;
   // & and no &&: one branch that can be foreseen, not six that cannot
   const int closed = int{ lo[0] <= x[0] } & int{ x[0] <= hi[0] } & int{ lo[1] <= x[1] } &
     int{ x[1] <= hi[1] } & int{ lo[2] <= x[2] } & int{ x[2] <= hi[2] };
@@ -91,50 +139,34 @@ struct InTree
 {
   const SubdomainTree& tree;
   std::int64_t outside;
-  const Entry* best = nullptr; ///< of the last point
-  int most = -1;               ///< its axes inside
-
-  std::int64_t operator()(const double* x) noexcept
-  {
-    if (!best || axes_inside(*best, x) != 3)
-    {
-      best = nullptr;
-      most = -1;
-      if (is_finite(x))
-      {
-        this->search(x, tree.root());
-      }
-    }
-    return best ? best->number : outside;
-  }
+  const Node* best = nullptr; ///< of the last point
 
   /// Of the closed boxes that have the point, the one with the most axes along which lo <= x < hi; of these
   /// (flat ones among them) the one that begins last along x, then y, then z, then the last.
-  void search(const double* x, const Node& node) noexcept
+  std::int64_t operator()(const double* x) noexcept
   {
-    if (const auto halves = tree.halves(node); !halves.empty())
+    if (best && axes_inside(*best, x) == 3)
     {
-      const bool second = x[node.axis] >= halves[1].lo[node.axis];
-      if (!second || x[node.axis] <= halves[0].hi[node.axis])
-      {
-        this->search(x, halves[0]);
-      }
-      if (second && most < 3)
-      {
-        this->search(x, halves[1]);
-      }
+      return best->number;
     }
-    for (const Entry& entry : tree.entries(node))
+    best = nullptr;
+    int most = -1;
+    if (is_finite(x))
     {
-      const int axes = axes_inside(entry, x);
-      if (axes > most ||
-        (axes >= 0 && axes == most &&
-          std::tie(best->lo, best->number) < std::tie(entry.lo, entry.number)))
-      {
-        best = &entry;
-        most = axes;
-      }
+      tree.search([x](const Node& node) { return axes_inside(node, x) >= 0; },
+        [&](const Node& leaf)
+        {
+          const int axes = axes_inside(leaf, x);
+          if (axes > most ||
+            (axes == most && std::tie(best->lo, best->number) < std::tie(leaf.lo, leaf.number)))
+          {
+            best = &leaf;
+            most = axes;
+          }
+          return most == 3;
+        });
     }
+    return best ? best->number : outside;
   }
 };
 
@@ -148,18 +180,9 @@ void count_rows(const FrameView& frame, const AbsolutePositions& positions, std:
   {
     const std::int64_t rows = std::min(most, last - first);
     const double* const x = positions.load(first, static_cast<std::size_t>(rows), buffer.data());
-    if (!frame.ghosts)
-    {
-      for (std::int64_t row = 0; row < rows; ++row)
-      {
-        ++counts[find(x + 3 * row)];
-      }
-      continue;
-    }
-    const unsigned char* const ghosts = frame.ghosts + first;
     for (std::int64_t row = 0; row < rows; ++row)
     {
-      if ((ghosts[row] & FrameView::duplicate_row) == 0)
+      if (!frame.is_duplicate(first + row))
       {
         ++counts[find(x + 3 * row)];
       }
@@ -203,32 +226,16 @@ ParticleCounts count_all(const FrameView& frame, std::size_t places, const Find&
   sum.particles.pop_back();
   return sum;
 }
-
-void check_cuts(const ProcessGrid& grid)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const std::vector<double>& cuts = grid.cuts[axis];
-    for (std::size_t i = 0; i < cuts.size(); ++i)
-    {
-      if (!std::isfinite(cuts[i]) || (i > 0 && cuts[i] < cuts[i - 1]))
-      {
-        throw Error(std::string("expected finite cuts along ") + "xyz"[axis] +
-          ", none below the one before, got " + to_text(cuts[i]) +
-          (i > 0 ? " behind " + to_text(cuts[i - 1]) : ""));
-      }
-    }
-  }
-}
 }
 
 ParticleCounts count_in_grid(
   const FrameView& frame, const ProcessGrid& grid, const Executor& executor, Progress& progress)
 {
-  check_cuts(grid);
-  const std::array<SlabFinder, 3> slabs = slabs_of(grid);
-  return count_all(
-    frame, static_cast<std::size_t>(grid.size()), InGrid{ slabs, grid }, executor, progress);
+  const auto& [x, y, z] = grid.cuts;
+  const auto [px, py, pz] = grid.counts();
+  const std::array<Slabs, 3> slabs = { Slabs(x, 'x'), Slabs(y, 'y'), Slabs(z, 'z') };
+  return count_all(frame, static_cast<std::size_t>(grid.size()),
+    InGrid{ slabs, py, pz, px * py * pz }, executor, progress);
 }
 
 ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdomain> subdomains,
@@ -243,16 +250,16 @@ ParticleCounts count_in_subdomains(const FrameView& frame, std::span<const Subdo
       [&](std::int64_t place) { return in_grid.particles[static_cast<std::size_t>(place)]; });
     return counts;
   }
-  std::vector<Entry> entries;
+  std::vector<Node> leaves;
   for (std::size_t i = 0; i < subdomains.size(); ++i)
   {
     const auto& [lo, hi, particles, rank] = subdomains[i];
     if (lo[0] <= hi[0] && lo[1] <= hi[1] && lo[2] <= hi[2])
     {
-      entries.push_back({ lo, hi, static_cast<std::int64_t>(i) });
+      leaves.push_back({ lo, hi, static_cast<std::int64_t>(i), 0 });
     }
   }
-  const SubdomainTree tree(std::move(entries), true);
+  const SubdomainTree tree(std::move(leaves));
   return count_all(frame, subdomains.size(),
     InTree{ tree, static_cast<std::int64_t>(subdomains.size()) }, executor, progress);
 }

@@ -76,18 +76,14 @@ enum class Answer : std::uint8_t
 /// The checks of subdomains.
 struct SubdomainChecks
 {
-  Answer bounds = Answer::Error;  ///< lo <= hi, all finite
   Answer overlap = Answer::Error; ///< no two share more than faces
   Answer gap = Answer::Error;     ///< together they fill the smallest box around all
-  /// The tolerance: two overlap by more than this fraction of the box's edge along each axis, gaps have more than this
-  /// fraction of its volume.
-  double tolerance = 1e-9;
 };
 
-/// Checks subdomains. Each check gives one Error or Notice that names the first two wrong ones (by rank) and counts them, up
-/// to 10^6 overlaps. Subdomains without bounds are left out of the overlaps; gaps are checked if all have bounds and no two
-/// overlap. In a flat box areas must not overlap, and there are no gaps. A grid has neither, which costs only finding it;
-/// others take n log n (see find_overlaps). Throws FormatError; Cancelled.
+/// Checks subdomains. Wrong ones give one Error or Notice, which names the first two (by rank) and counts all, up to 10^6
+/// overlaps; bounds that are not finite, or inverted, always give an Error. Gaps are checked if no two overlap. In a flat box
+/// areas must not overlap, and there are no gaps. Overlaps and gaps below 1e-9 of the box are rounding. Takes n log n where
+/// planes divide the subdomains. Throws FormatError; Cancelled.
 void check_subdomains(std::span<const Subdomain> subdomains, const SubdomainChecks& checks,
   const Where& where, Notices& notices, Progress& progress);
 }
