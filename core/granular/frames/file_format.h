@@ -16,13 +16,6 @@ namespace granular
 struct FileIndex;
 struct FrameEntry;
 
-/// Numbers that identify the first rows of a file, for comparing files.
-struct FirstRows
-{
-  std::vector<std::int64_t> keys;
-  bool are_ids = false; ///< no two rows have the same; else equal rows have
-};
-
 /// The positions of the parts of a file that is one frame, for its reader. Formats derive their own.
 struct FileLayout
 {
@@ -51,9 +44,9 @@ struct FileFormat
   /// Error.
   std::string (*describe)(const ByteSource& source, const FrameEntry& entry) = nullptr;
 
-  /// Returns the first rows of a frame, which tell pieces from repetitions; none if they tell nothing; may be null.
-  /// Throws IoError.
-  FirstRows (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
+  /// Returns numbers of the first rows of a frame that no other piece of it has, which tells pieces from repetitions; none if
+  /// they tell nothing; may be null. May throw Error.
+  std::vector<std::int64_t> (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
 
   bool large_runs =
     false; ///< of so many or large files that several ranks look through them together

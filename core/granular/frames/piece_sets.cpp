@@ -155,19 +155,30 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
     (2 * shared >= all || (groups.size() == 1 && only_lag(files, groups.begin()->second)));
 }
 
-/// Whether a frame has particles that were seen before: one of the same id, or, where it has rows of other things, which may
-/// be equal by chance, most rows.
+/// Returns true if a frame has rows that were seen before. Rows that cannot be read are left to the reader of the frame; without
+/// the file nobody can tell pieces from repetitions.
 bool is_seen(const FileIndex& file, const FrameEntry& entry, std::set<std::int64_t>& seen)
 {
   if (!file.format || !file.format->first_rows)
   {
     return false;
   }
-  const FirstRows rows = file.format->first_rows(file, entry);
-  const auto again =
-    std::ranges::count_if(rows.keys, [&](std::int64_t key) { return seen.contains(key); });
-  seen.insert(rows.keys.begin(), rows.keys.end());
-  return rows.are_ids ? again > 0 : 2 * again > std::ssize(rows.keys);
+  std::vector<std::int64_t> rows;
+  try
+  {
+    rows = file.format->first_rows(file, entry);
+  }
+  catch (const IoError&)
+  {
+    throw;
+  }
+  catch (const Error&)
+  {
+  }
+  const auto is_there = [&](std::int64_t row) { return seen.contains(row); };
+  const bool again = std::ranges::any_of(rows, is_there);
+  seen.insert(rows.begin(), rows.end());
+  return again;
 }
 
 /// Whether several files have the same particle in the first frame in which they have any: a run that

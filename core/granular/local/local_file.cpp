@@ -284,7 +284,7 @@ const FileFormat& local_format() noexcept
   static constexpr FileFormat format = { .name = "a dump of local data",
     .index = index_local,
     .complete = complete_pieces,
-    .first_rows = find_first_rows,
+    .first_rows = hash_first_rows,
     .large_runs = true };
   return format;
 }

@@ -5,13 +5,15 @@
 #include "granular/frames/file_format.h"
 #include "granular/frames/frame.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace granular
 {
 /// FileFormat::first_rows for particles: the ids, if there are any.
-FirstRows find_first_ids(const FileIndex& file, const FrameEntry& entry);
+std::vector<std::int64_t> find_first_ids(const FileIndex& file, const FrameEntry& entry);
 
-/// FileFormat::first_rows for other rows, which may be equal by chance: for text without ids, a hash of the words of each
-/// row.
-FirstRows find_first_rows(const FileIndex& file, const FrameEntry& entry);
+/// FileFormat::first_rows for other rows, which may be equal by chance: a hash of all first rows together.
+std::vector<std::int64_t> hash_first_rows(const FileIndex& file, const FrameEntry& entry);
 }
 #endif
