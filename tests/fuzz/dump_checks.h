@@ -4,7 +4,7 @@
 #ifndef granular_tests_fuzz_dump_checks_h
 #define granular_tests_fuzz_dump_checks_h
 
-#include "granular/dump/read/dump_reader.h"
+#include "../support/read_source.h"
 
 #include <cstdint>
 #include <cstdio>

@@ -2,8 +2,8 @@
 #ifndef granular_tests_support_dumps_h
 #define granular_tests_support_dumps_h
 
-#include "granular/dump/read/dump_reader.h"
 #include "granular/frames/file_index.h"
+#include "read_source.h"
 
 #include <cstdint>
 #include <functional>

@@ -90,8 +90,7 @@ bool has_free_points(const FileIndex& index)
       points, [](const SeekPoints::Point& point) { return point.window.empty(); });
 }
 
-/// Returns whether anything was read.
-bool update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
+void update(FileIndex& index, const std::vector<std::string>& column_names, Progress& progress,
   const ScanAhead& ahead)
 {
   std::unique_ptr<ByteSource> packed = open_file(index.path);
@@ -100,7 +99,7 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   const bool anew = renamed || others_changed(index);
   if (index.stamp == stamp && !anew)
   {
-    return false;
+    return;
   }
   if (anew || !only_grew(*packed, stamp, index))
   {
@@ -149,7 +148,6 @@ bool update(FileIndex& index, const std::vector<std::string>& column_names, Prog
         std::string("expected ") + index.format->name + ", got " +
           (stamp.size == 0 ? "an empty file" : "no complete frame") });
   }
-  return true;
 }
 }
 
@@ -166,7 +164,7 @@ std::string first_bytes_of(const ByteSource& source)
   return read_up_to(source, 65536);
 }
 
-bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
+void update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
   Progress& progress, const ScanAhead& ahead)
 {
   const auto fail = [&](const FileStamp& stamp)
@@ -176,19 +174,18 @@ bool update_file_index(FileIndex& index, const std::vector<std::string>& column_
     failed.column_names = column_names;
     failed.error = std::current_exception();
     index = std::move(failed);
-    return true;
   };
   try
   {
-    return update(index, column_names, progress, ahead);
+    update(index, column_names, progress, ahead);
   }
   catch (const IoError&)
   {
-    return fail({}); // the system may be in a better mood next time
+    fail({}); // the system may be in a better mood next time
   }
   catch (const Error&)
   {
-    return fail(index.stamp); // it is not read again until it changes
+    fail(index.stamp); // it is not read again until it changes
   }
   catch (...)
   {

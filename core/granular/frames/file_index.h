@@ -73,8 +73,8 @@ bool looks_so(const std::string& path, const Look& look) noexcept
 
 /// Updates the index of a file to its current contents. Reads nothing if the file is unchanged, continues if it only grew,
 /// and otherwise, or if a file beside it changed, starts again. Errors end in index.error, also a changed compression.
-/// Returns true if anything was read. Throws Cancelled.
-bool update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
+/// Throws Cancelled.
+void update_file_index(FileIndex& index, const std::vector<std::string>& column_names,
   Progress& progress, const ScanAhead& ahead = {});
 
 /// Makes the index of a file that another rank has looked through one of this machine, where devices and inodes may have other

@@ -356,14 +356,6 @@ DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& re
   return read_dump(pieces, request, alone, notices, progress);
 }
 
-DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
-  Notices& notices, Progress& progress)
-{
-  FileIndex file;
-  file.path = source.path();
-  return read_dump({ { file, entry, &source } }, request, notices, progress);
-}
-
 DumpPart decode_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   bool together, Progress& progress)
 {

@@ -27,10 +27,6 @@ namespace granular
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   Notices& notices, Progress& progress);
 
-/// Decodes a frame of one piece from an open source.
-DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry, const DumpRequest& request,
-  Notices& notices, Progress& progress);
-
 /// Decodes one frame by all ranks together, each its own part: request.piece is the rank, request.pieces the number of ranks.
 /// Collective, except for the decoding itself. All ranks get the notices of all, and throw the errors of any: see agree.
 DumpFrame read_dump(const std::vector<FramePiece>& pieces, const DumpRequest& request,
