@@ -300,8 +300,6 @@ private:
     this->Progress.set_part(0.6, 0.7);
     std::array<vtkPointSet*, 2> inputs;
     std::array<std::optional<LocalRows>, 2> rows;
-    std::array<std::vector<std::int64_t>, 2> kinds;
-    const std::string& type = this->Self->BondTypeArray;
     for (std::size_t i = 0; i < 2; ++i)
     {
       const FrameData& frame = i == 0 ? this->Current : this->Reference;
@@ -310,16 +308,11 @@ private:
       rows[i].emplace(inputs[i]);
       this->Ends[i] = { rows[i]->ReadIds("id1", this->Progress),
         rows[i]->ReadIds("id2", this->Progress) };
-      if (!type.empty())
-      {
-        kinds[i] = rows[i]->ReadIds(type.c_str(), this->Progress);
-      }
     }
     this->LackPlaces = rows[0]->LackPlaces();
     this->All.Lines = rows[0]->Count();
-    const granular::LineChanges changes =
-      granular::compare_lines({ this->Ends[0][0], this->Ends[0][1], kinds[0] },
-        { this->Ends[1][0], this->Ends[1][1], kinds[1] }, this->Group);
+    const granular::LineChanges changes = granular::compare_lines(
+      { this->Ends[0][0], this->Ends[0][1] }, { this->Ends[1][0], this->Ends[1][1] }, this->Group);
     Rows all(static_cast<std::size_t>(rows[0]->Count()));
     std::iota(all.begin(), all.end(), vtkIdType{ 0 });
     Rows lost;
@@ -493,6 +486,5 @@ void vtkGranularCompare::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Reference: " << this->Reference << "\n";
   os << indent << "ReferenceTime: " << this->ReferenceTime << "\n";
   os << indent << "Differences: " << this->Differences << "\n";
-  os << indent << "BondTypeArray: " << this->BondTypeArray << "\n";
   os << indent << "MassArray: " << this->MassArray << "\n";
 }

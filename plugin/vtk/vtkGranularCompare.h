@@ -28,7 +28,7 @@
  * for new ones. Values that lost lines do not have are as above. Each line has points of its own; point arrays are not
  * passed. If port 0 has lines, output 0 has these lines instead of particles, and output 1 is empty.
  *
- * Lines are the same if they connect the same two particles, in any order (see SetBondTypeArray). If a frame has several lines
+ * Lines are the same if they connect the same two particles, in any order. If a frame has several lines
  * between two particles, the k-th one is compared with the k-th one of the other frame.
  *
  * Displacements are those of unwrapped positions, each with the box of its own frame, if the points are unwrapped, or if there
@@ -114,15 +114,6 @@ public:
 
   ///@{
   /**
-   * Sets the cell array of integers, such as the type of a bond, in which lines must agree to be the same. None by default:
-   * only the particles count.
-   */
-  vtkSetStdStringFromCharMacro(BondTypeArray);
-  vtkGetCharFromStdStringMacro(BondTypeArray);
-  ///@}
-
-  ///@{
-  /**
    * Sets the point array of the masses of particles ("mass" by default) [kg]. Without it masses are those of spheres by the
    * arrays density [kg/m3] and radius [m]; without these there is no fragment_mass.
    */
@@ -145,7 +136,6 @@ private:
   int Reference = FIRST;
   double ReferenceTime = 0;
   std::string Differences;
-  std::string BondTypeArray;
   std::string MassArray = "mass";
   const std::unique_ptr<vtkGranularPrivate::KeptFrames> Frames;
 };

@@ -5,8 +5,6 @@
 #include "private/request/text_of.h"
 #include "private/writing/rows_file.h"
 
-#include "granular/common/words.h"
-
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
@@ -59,10 +57,6 @@ protected:
     auto* points = ExpectData<vtkPointSet>(input, "a vtkPointSet to write", { this->Path });
     auto data = std::make_unique<DumpInput>(points, notices);
     granular::FrameHeader& header = data->View.header;
-    if (*TextOf(this->Self->Units))
-    {
-      header.units = this->Self->Units;
-    }
     const std::string boundary = header.box.boundary;
     if (HasBox(this->Self->BoxVectors))
     {
@@ -92,7 +86,6 @@ vtkGranularDumpWriter::~vtkGranularDumpWriter()
 {
   this->SetColumns(nullptr);
   this->SetNumberFormat(nullptr);
-  this->SetUnits(nullptr);
   this->SetBoundary(nullptr);
 }
 
@@ -108,7 +101,6 @@ void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberFormat: " << TextOf(this->NumberFormat) << "\n";
   os << indent << "SortById: " << this->SortById << "\n";
   os << indent << "WriteUnits: " << this->WriteUnits << "\n";
-  os << indent << "Units: " << TextOf(this->Units) << "\n";
   os << indent << "WriteTime: " << this->WriteTime << "\n";
   const auto print = [&](const char* name, const double* first, int count)
   {
@@ -144,10 +136,6 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
   {
     CheckFinite(this->BoxOrigin, 3);
     CheckFinite(this->BoxVectors, 9);
-  }
-  if (granular::split_words(TextOf(this->Units)).size() > 1)
-  {
-    throw granular::Error("expected Units of one word, got '" + std::string(this->Units) + "'");
   }
   if (this->Style == CUSTOM && (!this->Scaled || this->Image))
   {

@@ -113,14 +113,11 @@ public:
 
   ///@{
   /**
-   * On: LAMMPS files have ITEM: UNITS in their first frame, with Units, or with the input's units if that is empty. Off by
-   * default.
+   * On: LAMMPS files have ITEM: UNITS in their first frame, with the input's units. Off by default.
    */
   vtkSetMacro(WriteUnits, bool);
   vtkGetMacro(WriteUnits, bool);
   vtkBooleanMacro(WriteUnits, bool);
-  vtkSetStringMacro(Units);
-  vtkGetStringMacro(Units);
   ///@}
 
   ///@{
@@ -167,7 +164,6 @@ protected:
   char* NumberFormat = nullptr;
   bool SortById = false;
   bool WriteUnits = false;
-  char* Units = nullptr;
   bool WriteTime = false;
   double BoxOrigin[3] = { 0, 0, 0 };
   double BoxVectors[9] = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };

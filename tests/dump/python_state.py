@@ -15,12 +15,15 @@ for step in (0, 1000, 2000):
     shutil.copy(good / f"grains_{step}.dump", "first/post")
 reader = granular.reader("first/post/grains_*.dump", dt=2e-5)
 granular.show(reader, color="radius", box=True)
+GranularCompare(Input=reader)
+CreateExtractor("GranularDump", reader)
 SaveState("first/run.pvsm")
 state = Path("first/run.pvsm").read_bytes()
-kept = b'<Property name="RepeatedSteps"'
-assert state.count(kept) == 1
-state = state.replace(kept, b'<Property name="IndexFile" id="1.IndexFile" number_of_elements="1"><Element index="0" value="1"/></Property>' + kept)
-Path("first/run.pvsm").write_bytes(state)  # a state of the time when readers had this property
+for kept, gone in (("RepeatedSteps", "IndexFile"), ("MassArray", "BondTypeArray"), ("WriteUnits", "Units")):
+    place = f'<Property name="{kept}"'.encode()
+    assert state.count(place) == 1, kept
+    state = state.replace(place, f'<Property name="{gone}" id="1.{gone}" number_of_elements="1"><Element index="0" value="1"/></Property>'.encode() + place)
+Path("first/run.pvsm").write_bytes(state)  # a state of the time when there were these properties
 
 
 def loaded():

@@ -133,7 +133,7 @@ for source in (fresh, some):
 writer = check_properties(
     "GranularDumpWriter", grains, Style="Custom", Dialect="Automatic", Columns="", Scaled=1, Image=0,
     NumberFormat="Automatic",
-    SortById=0, WriteTimeSteps=0, WriteUnits=0, Units="", WriteTime=0, BoxOrigin=[0] * 3, BoxVectors=[0] * 9,
+    SortById=0, WriteTimeSteps=0, WriteUnits=0, WriteTime=0, BoxOrigin=[0] * 3, BoxVectors=[0] * 9,
     Boundary="", ParallelMode="Gather", Threads=0)
 for name, words in (("Style", ("Atom", "Custom")), ("Dialect", ("LIGGGHTS", "LAMMPS", "Automatic")),
                     ("ParallelMode", ("Gather", "MPI-IO"))):

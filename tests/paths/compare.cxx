@@ -408,24 +408,6 @@ TEST(Compare, LinesAlone)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfLines(), 2);
 }
 
-TEST(Compare, TypesOfBondsCountIfTheyAreNamed)
-{
-  std::vector<Data> bonds = { MakeLines({ 1, 2 }, { 2, 4 }), MakeLines({ 1, 2 }, { 2, 4 }) };
-  bonds[0]->GetCellData()->AddArray(MakeArray("btype", { 1, 1 }));
-  bonds[1]->GetCellData()->AddArray(MakeArray<vtkTypeInt32Array>("btype", { 1, 2 }));
-  Filter filter(TwoFrames(), bonds);
-  filter->UpdateTimeStep(1);
-  EXPECT_EQ(filter.Cells("change"), (Values{ 0, 0 }));
-  filter.ExpectSaid("1 of 2 lines name a particle that is not there");
-  filter->SetBondTypeArray("btype");
-  filter->UpdateTimeStep(1);
-  EXPECT_EQ(filter.Cells("change"), (Values{ 0, 1, 2 }));
-  filter.Seen->Said.clear();
-  filter->SetBondTypeArray("strength");
-  filter->UpdateTimeStep(1);
-  filter.ExpectSaid("expected an array 'strength' of the lines, got none");
-}
-
 /// Lines in several parts count once, and all parts are shown.
 TEST(Compare, SplitLines)
 {
@@ -606,11 +588,10 @@ TEST(Compare, PrintsAllProperties)
   filter->SetReference(vtkGranularCompare::TIME);
   filter->SetReferenceTime(0.25);
   filter->SetDifferences("v");
-  filter->SetBondTypeArray("btype");
   std::ostringstream out;
   filter->Print(out);
   for (const char* line : { "Reference: 2\n", "ReferenceTime: 0.25\n", "Differences: v\n",
-         "BondTypeArray: btype\n", "MassArray: mass\n", "Threads: 0\n", "Controller: " })
+         "MassArray: mass\n", "Threads: 0\n", "Controller: " })
   {
     EXPECT_NE(out.str().find(line), std::string::npos) << line;
   }

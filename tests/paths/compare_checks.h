@@ -76,14 +76,13 @@ struct Line
 {
   Id id1;
   Id id2;
-  Id kind;
 };
 
-using Key = std::array<Id, 3>;
+using Key = std::array<Id, 2>;
 
-inline Key key_of(const Line& line, bool kinds)
+inline Key key_of(const Line& line)
 {
-  return { std::min(line.id1, line.id2), std::max(line.id1, line.id2), kinds ? line.kind : 0 };
+  return { std::min(line.id1, line.id2), std::max(line.id1, line.id2) };
 }
 
 /// Between few particles, so that many lines repeat in one order or the other.
@@ -92,19 +91,18 @@ inline std::vector<Line> make_lines(std::size_t count, const Ids& ids, std::mt19
   std::vector<Line> lines;
   for (std::size_t i = 0; i < count; ++i)
   {
-    lines.push_back({ ids[random() % ids.size()], ids[random() % ids.size()],
-      static_cast<Id>(random() % 3) - 1 });
+    lines.push_back({ ids[random() % ids.size()], ids[random() % ids.size()] });
   }
   return lines;
 }
 
 /// How often each key occurs.
-inline std::map<Key, int> count_keys(const std::vector<Line>& lines, bool kinds)
+inline std::map<Key, int> count_keys(const std::vector<Line>& lines)
 {
   std::map<Key, int> counts;
   for (const Line& line : lines)
   {
-    ++counts[key_of(line, kinds)];
+    ++counts[key_of(line)];
   }
   return counts;
 }
@@ -112,14 +110,14 @@ inline std::map<Key, int> count_keys(const std::vector<Line>& lines, bool kinds)
 /// The changes of the lines of a frame, in the order of ranks and their rows: the first occurrences, as many as the other
 /// frame has, are kept.
 inline std::vector<Change> expected_changes(const std::vector<Line>& lines, const Place& place,
-  int ranks, std::map<Key, int> others, Change alone, bool kinds)
+  int ranks, std::map<Key, int> others, Change alone)
 {
   std::vector<Change> changes(lines.size());
   for (int rank = 0; rank < ranks; ++rank)
   {
     for (const std::size_t i : part_of(lines.size(), place, rank, ranks))
     {
-      changes[i] = others[key_of(lines[i], kinds)]-- > 0 ? Change::Kept : alone;
+      changes[i] = others[key_of(lines[i])]-- > 0 ? Change::Kept : alone;
     }
   }
   return changes;
@@ -134,33 +132,27 @@ struct Columns
     {
       id1.push_back(line.id1);
       id2.push_back(line.id2);
-      kind.push_back(line.kind);
     }
   }
 
-  granular::LineEnds ends(bool kinds) const
-  {
-    return { id1, id2, kinds ? std::span<const Id>(kind) : std::span<const Id>() };
-  }
+  granular::LineEnds ends() const { return { id1, id2 }; }
 
-  Ids id1, id2, kind;
+  Ids id1, id2;
 };
 
 inline void check_two(Communicator& ranks, const std::vector<Line>& current, const Place& here,
-  const std::vector<Line>& reference, const Place& there, bool kinds)
+  const std::vector<Line>& reference, const Place& there)
 {
   const int size = ranks.size();
   const auto own = part_of(current.size(), here, ranks.rank(), size);
   const auto old = part_of(reference.size(), there, ranks.rank(), size);
   const Columns now(pick(current, own));
   const Columns before(pick(reference, old));
-  const granular::LineChanges found = compare_lines(now.ends(kinds), before.ends(kinds), ranks);
+  const granular::LineChanges found = compare_lines(now.ends(), before.ends(), ranks);
   EXPECT_EQ(found.current,
-    pick(expected_changes(current, here, size, count_keys(reference, kinds), Change::New, kinds),
-      own));
+    pick(expected_changes(current, here, size, count_keys(reference), Change::New), own));
   EXPECT_EQ(found.reference,
-    pick(expected_changes(reference, there, size, count_keys(current, kinds), Change::Lost, kinds),
-      old));
+    pick(expected_changes(reference, there, size, count_keys(current), Change::Lost), old));
 }
 
 inline void check_lines(Communicator& ranks)
@@ -174,13 +166,13 @@ inline void check_lines(Communicator& ranks)
     const auto others = make_lines(150, pool, random);
     for (const Place& place : all_places())
     {
-      check_two(ranks, lines, place, others, all_places()[0], false);
-      check_two(ranks, lines, all_places()[3], others, place, true);
-      check_two(ranks, lines, place, {}, place, false);
-      check_two(ranks, {}, place, others, place, true);
+      check_two(ranks, lines, place, others, all_places()[0]);
+      check_two(ranks, lines, all_places()[3], others, place);
+      check_two(ranks, lines, place, {}, place);
+      check_two(ranks, {}, place, others, place);
     }
   }
-  check_two(ranks, {}, all_places()[0], {}, all_places()[0], false);
+  check_two(ranks, {}, all_places()[0], {}, all_places()[0]);
 }
 
 // ---- fragments ---------------------------------------------------------------------------------
@@ -290,15 +282,15 @@ inline std::vector<Net> make_nets()
 {
   std::mt19937_64 random(11);
   std::vector<Net> nets;
-  nets.push_back(make_net("no particles", {}, { { 1, 2, 0 } }, random));
+  nets.push_back(make_net("no particles", {}, { { 1, 2 } }, random));
   nets.push_back(make_net("no lines", { 5, -3, lowest, highest }, {}, random));
   for (const std::size_t lines : { 30U, 80U, 150U })
   {
     Ids ids(200);
     std::iota(ids.begin(), ids.end(), -70);
     auto some = make_lines(lines, ids, random);
-    some.push_back({ 1, 1'000'000, 0 }); // which nobody has
-    some.push_back({ 3, 3, 0 });
+    some.push_back({ 1, 1'000'000 }); // which nobody has
+    some.push_back({ 3, 3 });
     nets.push_back(make_net("random lines " + std::to_string(lines), ids, some, random));
   }
   Ids anywhere;
@@ -322,7 +314,7 @@ inline Net make_chain(Id bonds)
   std::vector<Line> lines;
   for (std::size_t i = 0; i + 1 < ids.size(); ++i)
   {
-    lines.push_back({ ids[i], ids[i + 1], 0 });
+    lines.push_back({ ids[i], ids[i + 1] });
   }
   return make_net("chain", ids, lines, random);
 }

@@ -18,23 +18,21 @@ namespace
 {
 using Numbers = std::vector<std::int64_t>;
 
-/// The lower id, the higher id, the kind: equal for lines that are the same.
-using Key = std::array<std::int64_t, 3>;
+/// The lower id, the higher id: equal for lines that are the same.
+using Key = std::array<std::int64_t, 2>;
 
 std::vector<Key> keys_of(const LineEnds& lines)
 {
-  if (lines.id2.size() != lines.id1.size() ||
-    (!lines.kind.empty() && lines.kind.size() != lines.id1.size()))
+  if (lines.id2.size() != lines.id1.size())
   {
-    throw Error("expected as many ids of second ends, and kinds, as ids of first ends, " +
-      std::to_string(lines.id1.size()) + ", got " + std::to_string(lines.id2.size()) + " and " +
-      std::to_string(lines.kind.size()));
+    throw Error("expected as many ids of second ends as of first ends, " +
+      std::to_string(lines.id1.size()) + ", got " + std::to_string(lines.id2.size()));
   }
   std::vector<Key> keys(lines.id1.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
     const auto [low, high] = std::minmax(lines.id1[i], lines.id2[i]);
-    keys[i] = { low, high, lines.kind.empty() ? 0 : lines.kind[i] };
+    keys[i] = { low, high };
   }
   return keys;
 }

@@ -16,8 +16,6 @@ struct LineEnds
 {
   std::span<const std::int64_t> id1;
   std::span<const std::int64_t> id2;
-  std::span<const std::int64_t>
-    kind = {}; ///< such as the type of a bond; empty: lines have no kinds
 };
 
 /// The change of each line of a rank.
@@ -27,11 +25,11 @@ struct LineChanges
   std::vector<Change> reference; ///< Kept or Lost
 };
 
-/// Compares the lines of two frames. Lines are the same if they connect the same two particles, in any order, and have the
-/// same kind. If a frame has several such lines, the k-th one is compared with the k-th one of the other frame, and surplus
-/// ones are New or Lost; they are counted by rank, then by row. Lines of both frames may be on any ranks.
+/// Compares the lines of two frames. Lines are the same if they connect the same two particles, in any order. If a frame has
+/// several such lines, the k-th one is compared with the k-th one of the other frame, and surplus ones are New or Lost; they
+/// are counted by rank, then by row. Lines of both frames may be on any ranks.
 ///
-/// Throws Error on all ranks if the numbers of ids and kinds differ; std::bad_alloc. Collective.
+/// Throws Error on all ranks if the numbers of ids differ; std::bad_alloc. Collective.
 LineChanges compare_lines(const LineEnds& current, const LineEnds& reference, Communicator& ranks);
 }
 #endif
