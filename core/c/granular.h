@@ -358,8 +358,8 @@ typedef struct granular_format
 
 GRANULAR_API void granular_format_init(granular_format* format);
 
-/* Begins a file under a temporary name. A name with `*` makes a file for each frame. Text is compressed if the name ends in
- * .gz or .zst; .bin and .lammpsbin are binary. format may be null. Sets *writer.
+/* Begins a file under a temporary name. A name with `*` makes a file for each frame. Two frames of one timestep are an error.
+ * Text is compressed if the name ends in .gz or .zst; .bin and .lammpsbin are binary. format may be null. Sets *writer.
  *
  * A file of the run that a frame comes from, under any name, is replaced by granular_finish. A frame for it is an error if a
  * frame of that file is not complete, because a simulation may be writing it, or if other files have pieces of its frames. */
@@ -400,6 +400,31 @@ GRANULAR_API granular_status granular_finish(granular_writer* writer);
 
 /* Ends the writer without the file; the old one is untouched. Null does nothing. */
 GRANULAR_API void granular_abandon(granular_writer* writer);
+
+/* ---- files that a program writes itself ------------------------------------------------------ */
+
+typedef struct granular_file granular_file;
+
+/* Begins a file that a program writes in its own way, under the name of an empty temporary file in the folder of path. Sets *file;
+ * close it. A symbolic link is followed. An error if something at path may not be replaced. */
+GRANULAR_API granular_status granular_begin_file(const char* path, granular_file** file);
+
+/* Returns the name to write to, which may also be replaced by a file of the same file system. */
+GRANULAR_API const char* granular_file_name(const granular_file* file);
+
+/* Completes a file and closes it, so that many can wait for their names. It gets the permissions, owner and group of the old file.
+ * durable: 1 or 0, as in granular_format. */
+GRANULAR_API granular_status granular_hold_file(granular_file* file, int durable);
+
+/* Gives files their names, in this order; one that is not held is completed before. If another program has taken a file away, none
+ * gets its name. */
+GRANULAR_API granular_status granular_finish_files(
+  granular_file* const* files, size_t count, int durable);
+
+/* Ends a file, and removes what has been written if granular_finish_files has not given it its name. Null does nothing. What a
+ * killed program leaves is removed by the next granular_begin_file of the same path, with all whose names begin like that of
+ * granular_file_name. A child made by fork removes nothing. */
+GRANULAR_API void granular_close_file(granular_file* file);
 
 /* ---- files ----------------------------------------------------------------------------------- */
 

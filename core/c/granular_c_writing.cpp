@@ -3,11 +3,20 @@
 #include "guard.h"
 #include "writer.h"
 
+#include "granular/bytes/byte_sink.h"
 #include "granular/bytes/find_files.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 using namespace granular_c;
+
+struct granular_file
+{
+  granular::NewFile file;
+  bool finished = false; ///< or has failed
+};
 
 struct granular_names
 {
@@ -23,6 +32,15 @@ void write_frame(granular_writer& writer, const granular::FrameView& view)
   writer.caller.begin();
   writer.write(view, notices, writer.caller);
   writer.caller.tell(notices);
+}
+
+granular::NewFile& unfinished(granular_file* file)
+{
+  if (needed(file, "a file").finished)
+  {
+    throw BadArgument("expected a file that is being written, got one that is finished");
+  }
+  return file->file;
 }
 
 /// Returns the outcome of a frame. Whatever failed, the file would lack a frame that the program wanted in it.
@@ -119,6 +137,49 @@ extern "C"
   void granular_abandon(granular_writer* writer)
   {
     delete writer;
+  }
+
+  // ---- files that a program writes itself --------------------------------------------------------
+  granular_status granular_begin_file(const char* path, granular_file** file)
+  {
+    return guarded(
+      [&]
+      {
+        needed(file, "file") = nullptr;
+        *file = new granular_file{ granular::NewFile(
+          &needed(path, "a path"), granular::Locking::Others) };
+      });
+  }
+
+  const char* granular_file_name(const granular_file* file)
+  {
+    return file == nullptr ? nullptr : file->file.temporary_name().c_str();
+  }
+
+  granular_status granular_hold_file(granular_file* file, int durable)
+  {
+    return guarded([&] { unfinished(file).hold(durable != 0); });
+  }
+
+  granular_status granular_finish_files(granular_file* const* files, size_t count, int durable)
+  {
+    return guarded(
+      [&]
+      {
+        const std::span all(count > 0 ? &needed(files, "files") : nullptr, count);
+        std::ranges::for_each(all, [](granular_file* each) { unfinished(each).expect_name(); });
+        for (granular_file* const each : all)
+        {
+          granular::NewFile& file = unfinished(each);
+          each->finished = true;
+          file.finish(durable != 0);
+        }
+      });
+  }
+
+  void granular_close_file(granular_file* file)
+  {
+    delete file;
   }
 
   // ---- files -------------------------------------------------------------------------------------

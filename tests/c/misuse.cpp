@@ -83,6 +83,19 @@ TEST(CMisuse, NullsAreErrors)
   expect_null_error(granular_write_frame(nullptr, nullptr), "frame");
   expect_null_error(granular_write_frame(nullptr, frame.get()), "writer");
   expect_null_error(granular_finish(nullptr), "writer");
+  granular_file* begun = nullptr;
+  expect_null_error(granular_begin_file(nullptr, &begun), "a path");
+  expect_null_error(granular_begin_file("a.csv", nullptr), "file");
+  expect_null_error(granular_hold_file(nullptr, 0), "a file");
+  expect_null_error(granular_finish_files(nullptr, 1, 0), "files");
+  expect_null_error(granular_finish_files(&begun, 1, 0), "a file");
+  EXPECT_EQ(granular_file_name(nullptr), nullptr);
+  ASSERT_EQ(
+    granular_begin_file((std::string(GRANULAR_OUTPUT) + "/a.csv").c_str(), &begun), GRANULAR_OK);
+  ASSERT_EQ(granular_finish_files(&begun, 1, 0), GRANULAR_OK);
+  EXPECT_EQ(granular_finish_files(&begun, 1, 0), GRANULAR_BAD_ARGUMENT);
+  EXPECT_EQ(granular_hold_file(begun, 0), GRANULAR_BAD_ARGUMENT);
+  granular_close_file(begun);
   expect_null_error(granular_find_files(nullptr, 1, &names), "names");
   expect_null_error(granular_find_files(&path, 1, nullptr), "names");
   EXPECT_EQ(granular_name_count(nullptr), 0u);
@@ -92,6 +105,7 @@ TEST(CMisuse, NullsAreErrors)
   granular_close(nullptr);
   granular_release(nullptr);
   granular_abandon(nullptr);
+  granular_close_file(nullptr);
   granular_free_names(nullptr);
   granular_open_options_init(nullptr);
   granular_request_init(nullptr);

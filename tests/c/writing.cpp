@@ -3,8 +3,10 @@
 // that it expects.
 #include "handles.h"
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 namespace
 {
@@ -253,4 +255,64 @@ TEST(CWriting, AnErrorLeavesTheOldFile)
     EXPECT_EQ(entry.path().filename().string().find(".granular"), std::string::npos)
       << entry.path();
   }
+}
+
+// Readers would show one of them.
+TEST(CWriting, TwoFramesOfOneTimestep)
+{
+  granular_format format;
+  granular_format_init(&format);
+  for (const auto& [from, to, dialect] : { std::array{ "grains.dump", "twice.dump", "" },
+         std::array{ "euler_4000.vtk", "twice_*.euler", "" },
+         std::array{ "decomposition_1000.vtk", "twice.decomposition", "PUBLIC" } })
+  {
+    format.dialect = dialect;
+    const RunHandle run = open_run(good(from));
+    const FrameHandle frame = read_frame(run, 0);
+    granular_writer* writer = nullptr;
+    ASSERT_EQ(granular_create(output(to).c_str(), &format, &writer), GRANULAR_OK) << message();
+    ASSERT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_OK) << message();
+    EXPECT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_BAD_ARGUMENT) << to;
+    EXPECT_NE(message().find("expected a timestep of its own for each frame"), std::string::npos)
+      << message();
+    granular_abandon(writer);
+  }
+}
+
+// As programs may write them: in place, or as others that get the name.
+TEST(CWriting, FilesThatAProgramWritesItself)
+{
+  const std::string folder = output("own");
+  fs::remove_all(folder);
+  fs::create_directory(folder);
+  const std::string paths[] = { folder + "/a", folder + "/b" };
+  std::ofstream(paths[0]) << "old";
+  fs::permissions(paths[0], fs::perms::owner_read | fs::perms::owner_write);
+  for (const bool finished : { false, true })
+  {
+    granular_file* files[2] = {};
+    for (int i = 0; i < 2; ++i)
+    {
+      ASSERT_EQ(granular_begin_file(paths[i].c_str(), &files[i]), GRANULAR_OK) << message();
+    }
+    std::ofstream(granular_file_name(files[0])) << "new a";
+    std::ofstream(folder + "/other") << "new b";
+    fs::rename(folder + "/other", granular_file_name(files[1]));
+    EXPECT_EQ(granular_hold_file(files[1], 0), GRANULAR_OK) << message();
+    EXPECT_EQ(content(paths[0]), "old");
+    if (finished)
+    {
+      EXPECT_EQ(granular_finish_files(files, 2, 1), GRANULAR_OK) << message();
+    }
+    granular_close_file(files[0]);
+    granular_close_file(files[1]);
+    EXPECT_EQ(content(paths[0]), finished ? "new a" : "old");
+    EXPECT_EQ(fs::exists(paths[1]), finished);
+  }
+  EXPECT_EQ(content(paths[1]), "new b");
+  EXPECT_EQ(fs::status(paths[0]).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
+  granular_file* file = nullptr;
+  EXPECT_EQ(granular_begin_file(folder.c_str(), &file), GRANULAR_IO_ERROR);
+  EXPECT_EQ(message(), folder + ": cannot write: Is a directory");
 }

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that the package writes in Python itself, whose program is killed: the old or the new one is whole, and the next write of the
-name leaves nothing. Each call of the system that makes a file whole is a moment."""
+name leaves nothing. Each call of the system by which the library makes a file whole is a moment. The program must have been started with
+the library dying_calls in LD_PRELOAD."""
+import ctypes
 import os
 import shutil
 import signal
@@ -8,7 +10,6 @@ import sys
 
 import granular
 from granular.command import main
-from granular import _whole_file
 from granular._whole_file import whole_file, whole_files
 
 GRAINS = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
@@ -37,19 +38,6 @@ def several(name):
                 out.write("new")
 
 
-def die_at_call(number):
-    """This process is killed before the call of this number, counted from 1, with which the package makes a file whole."""
-    left = [number]
-
-    def look(frame, event, called):
-        if event == "c_call" and called.__module__ in ("posix", "fcntl") and frame.f_code.co_filename == _whole_file.__file__:
-            left[0] -= 1
-            if left[0] == 0:
-                os.kill(os.getpid(), signal.SIGKILL)
-
-    sys.setprofile(look)
-
-
 def check_kills(write, name):
     """Kills the writer of a file at each call, until one comes to its end."""
     with open(name, "w"):
@@ -62,7 +50,7 @@ def check_kills(write, name):
             file.write(OLD)
         child = os.fork()
         if child == 0:
-            die_at_call(kills + 1)
+            ctypes.CDLL(None).granular_die_at_call(ctypes.c_long(kills + 1))
             write(name)
             os._exit(0)
         status = os.waitpid(child, 0)[1]
@@ -78,8 +66,8 @@ def check_kills(write, name):
 
 def check_two_at_once():
     """One that lives keeps its file."""
-    with whole_file("two.csv", ".csv") as outer:
-        with whole_file("two.csv", ".csv") as inner:
+    with whole_file("two.csv") as outer:
+        with whole_file("two.csv") as inner:
             with open(inner, "w") as file:
                 file.write("inner")
         assert content("two.csv") == b"inner"

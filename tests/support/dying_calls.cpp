@@ -54,6 +54,11 @@ long calls_before_death()
 #pragma GCC visibility push(default) // shared libraries are to find them
 extern "C"
 {
+  void granular_die_at_call(long number)
+  {
+    die_at_call(number);
+  }
+
   int open(const char* path, int flags, ...)
   {
     va_list more;

@@ -230,7 +230,7 @@ NewFile::~NewFile()
 
 void NewFile::remove() noexcept
 {
-  if (file_ >= 0 && file_ != locked_->descriptor() && locked_->is_own())
+  if (locked_ && name_ != locked_->name() && locked_->is_own())
   {
     ::unlink(name_.c_str());
   }
@@ -288,6 +288,12 @@ void NewFile::expect_written() const
 
 void NewFile::complete(bool durable) const
 {
+  if (file_ != locked_->descriptor())
+  {
+    const Descriptor now =
+      open_existing(name_, O_RDONLY | O_NOFOLLOW); // others may have made it anew
+    check(now.get() < 0 || ::dup3(now.get(), file_, O_CLOEXEC) < 0 ? errno : 0, path_);
+  }
   this->set_permissions();
   check(durable ? sync(file_) : 0, path_);
   this->expect_written();
@@ -297,6 +303,10 @@ void NewFile::hold(bool durable)
 {
   this->expect_own();
   this->complete(durable);
+  if (file_ != locked_->descriptor())
+  {
+    ::close(file_);
+  }
   locked_->close();
   file_ = -1;
 }

@@ -43,7 +43,7 @@ public:
 enum class Locking : std::uint8_t
 {
   Own,   ///< this object
-  Others ///< who writes by the temporary name, in its own ways: the lock is then on a file beside it
+  Others ///< who writes by the temporary name, or gives it to another file: the lock is then on a file beside it
 };
 
 /// An output file that one rank writes. A symbolic link stays, and the file that it points to is replaced. Permissions,
@@ -61,8 +61,8 @@ public:
 
   void write_at(std::int64_t offset, std::string_view bytes) override;
 
-  /// Completes a file of Locking::Own and closes it, so that many can wait for their names. Only finish() may follow. durable:
-  /// as for finish(). Throws IoError.
+  /// Completes the file and closes it, so that many can wait for their names. Only finish() may follow. durable: as for
+  /// finish(). Throws IoError.
   void hold(bool durable);
 
   /// Throws IoError also if the folder cannot be synchronised; the new file has its name then.

@@ -130,6 +130,9 @@ _FUNCTIONS = {
     "granular_write": (c_void_p, POINTER(Content)),
     "granular_write_frame": (c_void_p, c_void_p),
     "granular_finish": (c_void_p,),
+    "granular_begin_file": (c_char_p, POINTER(c_void_p)),
+    "granular_hold_file": (c_void_p, c_int),
+    "granular_finish_files": (POINTER(c_void_p), c_size_t, c_int),
     "granular_find_files": (_NAMES, c_size_t, POINTER(c_void_p)),
 }
 _OTHERS = {  # without a status: result and arguments
@@ -140,6 +143,8 @@ _OTHERS = {  # without a status: result and arguments
     "granular_close": (None, c_void_p),
     "granular_release": (None, c_void_p),
     "granular_abandon": (None, c_void_p),
+    "granular_file_name": (c_char_p, c_void_p),
+    "granular_close_file": (None, c_void_p),
     "granular_name_count": (c_size_t, c_void_p),
     "granular_name_at": (c_char_p, c_void_p, c_size_t),
     "granular_free_names": (None, c_void_p),

@@ -6,12 +6,12 @@ import io
 import math
 import os
 import re
+import stat
 from array import array
 from typing import TYPE_CHECKING, Any, Iterable, Iterator, NoReturn
 
 from . import _library as c
 from ._run import _warn
-from ._whole_file import expect_file
 
 if TYPE_CHECKING:
     import gzip
@@ -266,7 +266,8 @@ class _Reader:
             return os.open(path, flags | os.O_NONBLOCK)  # a pipe of that name must not make it wait
 
         with open(self.path, "rb", opener=opened) as file:
-            expect_file(self.path, os.fstat(file.fileno()).st_mode)
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise OSError(f"{c.shown(self.path)}: expected a file, got a device or a pipe")
             head = file.peek(4)[:4]
             if head[:2] == b"\x1f\x8b":
                 size = os.fstat(file.fileno()).st_size

@@ -171,7 +171,8 @@ def _on_first(path: str, work: Callable[[], str]) -> str:
             told.InsertNextValue(work())
         except Exception as error:  # the other ranks wait for it
             told.InsertNextValue("")
-            told.InsertNextValue(f"cannot write: {error.strerror or error}" if isinstance(error, OSError) else str(error))
+            text = str(error).removeprefix(f"{shown(os.path.abspath(path))}: ")
+            told.InsertNextValue(f"cannot write: {error.strerror}" if isinstance(error, OSError) and error.strerror else text)
     if together:
         table = vtkTable()
         table.GetFieldData().AddArray(told)

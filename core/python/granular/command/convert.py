@@ -160,7 +160,7 @@ def _write_frames(frames: Iterable[Any], paths: list[str], columns: list[str] | 
         durable = "*" not in os.path.basename(out)
     for i, (frame, path) in enumerate(zip(frames, paths)):
         frame.read(bar.within(i, count))
-        with whole_file(path, ending, durable) as temporary:
+        with whole_file(path, durable) as temporary:
             _FRAME_WRITERS[ending](frame, temporary, columns)
 
 

@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> None:
     picture = os.path.abspath(picture)
     given = {"files": files, "options": options, "frame": number, "color": arguments.color, "size": list(map(int, parts))}
     program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")
-    with whole_file(picture, ".png") as temporary:
+    with whole_file(picture) as temporary:
         # a path, because with -m Python looks for modules in the current folder, too
         done = subprocess.run(_with_display([python, program]), input=json.dumps({**given, "picture": temporary}), capture_output=True, text=True)
         if done.returncode or not os.path.getsize(temporary):
