@@ -3,14 +3,12 @@
 
 #include "bad_argument.h"
 
-#include "granular/bytes/byte_sink.h"
-#include "granular/bytes/compression.h"
-#include "granular/common/words.h"
 #include "granular/decomposition/decomposition_text.h"
 #include "granular/dump/write/dump_writer.h"
 #include "granular/euler/euler_text.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
+#include "granular/writing/whole_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -51,14 +49,16 @@ std::optional<Value> choose(
 }
 
 /// As granular_format has it.
-Durability durability_of(const granular_format& format)
+WriteOptions options_of(const granular_format& format, const InputFiles& inputs)
 {
   if (format.durable < 0 || format.durable > static_cast<int>(Durability::Automatic))
   {
     throw BadArgument(
       "expected durable of 0, 1 or 2 (automatic), got " + std::to_string(format.durable));
   }
-  return static_cast<Durability>(format.durable);
+  return { .threads = format.threads > 0 ? format.threads : available_cores(),
+    .durable = static_cast<Durability>(format.durable),
+    .inputs = &inputs };
 }
 
 // ---- rows: particles, contacts and bonds -------------------------------------------------------
@@ -67,11 +67,7 @@ class RowsWriter final : public granular_writer
 public:
   RowsWriter(RowKind of, const std::string& to, DumpFormat form, const granular_format& format)
     : granular_writer(of, to, format)
-    , writer_(to, std::move(form),
-        { .threads = format.threads > 0 ? format.threads : available_cores(),
-          .durable = durability_of(format),
-          .inputs = &inputs },
-        alone_)
+    , writer_(to, std::move(form), options_of(format, inputs), alone_)
   {
   }
 
@@ -107,75 +103,37 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
   return values;
 }
 
-/// Text files that hold one frame each, or several one after the other.
-class WholeWriter : public granular_writer
+class TextWriter : public granular_writer
 {
 public:
-  WholeWriter(RowKind of, const std::string& to, bool holds_many, const granular_format& format)
+  TextWriter(RowKind of, const std::string& to, bool holds_many, const granular_format& format)
     : granular_writer(of, to, format)
-    , holds_many_(holds_many)
-    , durable_(is_durable(durability_of(format), to))
+    , writer_(to, holds_many, options_of(format, inputs), alone_)
   {
   }
 
   void write(const FrameView& frame, Notices& notices, Progress& progress) override
   {
-    Notices own;
-    const bool alone = is_name_of_steps(path);
-    const std::string to = alone ? name_of_step(path, frame.header.timestep) : path;
-    inputs.has(to); // throws for a file that may not be replaced
-    std::string text = this->encode(frame, own, progress);
-    for (Notice& notice : own)
-    {
-      notice.where.path = path;
-      notices.push_back(std::move(notice));
-    }
-    if (alone)
-    {
-      this->save(to, text);
-      return;
-    }
-    if (frames > 1 && !holds_many_)
-    {
-      throw UnsupportedError(
-        "expected a '*' in the name, which gives each time step its file: this file holds one",
-        { path });
-    }
-    text_ += text;
+    writer_.write(
+      frame.header.timestep, [&](Notices& own) { return this->encode(frame, own, progress); },
+      notices);
   }
 
-  void finish() override
-  {
-    if (!is_name_of_steps(path))
-    {
-      this->save(path, text_);
-    }
-    held_.finish_all(durable_);
-  }
+  void finish() override { writer_.finish(); }
 
 protected:
   virtual std::string encode(const FrameView& frame, Notices& notices, Progress& progress) = 0;
 
 private:
-  void save(const std::string& to, const std::string& text)
-  {
-    const Compression how = compression_of_name(to);
-    auto file = std::make_unique<NewFile>(to);
-    file->write_at(0, how == Compression::None ? text : compress(text, how));
-    held_.finish(std::move(file), durable_);
-  }
-
-  bool holds_many_;
-  bool durable_;
-  std::string text_;
-  HeldFiles held_{ &inputs };
+  SerialCommunicator alone_;
+  WholeWriter writer_;
 };
 
-class CellsWriter final : public WholeWriter
+class CellsWriter final : public TextWriter
 {
 public:
   CellsWriter(const std::string& to, EulerDialect dialect, const granular_format& format)
-    : WholeWriter(RowKind::Cells, to, false, format)
+    : TextWriter(RowKind::Cells, to, false, format)
     , dialect_(dialect)
   {
   }
@@ -208,11 +166,11 @@ enum class VoxelDialect : std::uint8_t
   Public
 };
 
-class SubdomainsWriter final : public WholeWriter
+class SubdomainsWriter final : public TextWriter
 {
 public:
   SubdomainsWriter(const std::string& to, VoxelDialect dialect, const granular_format& format)
-    : WholeWriter(RowKind::Subdomains, to, dialect == VoxelDialect::Public, format)
+    : TextWriter(RowKind::Subdomains, to, dialect == VoxelDialect::Public, format)
     , dialect_(dialect)
   {
   }
@@ -263,21 +221,12 @@ DumpFormat rows_format(const std::string& path, DumpStyle style, const granular_
   constexpr std::array<std::pair<const char*, Dialect>, 2> dialects = {
     { { "LIGGGHTS", Dialect::Liggghts }, { "LAMMPS", Dialect::Lammps } }
   };
-  DumpFormat format;
+  DumpFormat format = format_of_name(path, text_of(given.columns), text_of(given.numbers));
   format.style = style;
   format.dialect = choose("dialect", given.dialect, dialects);
-  format.binary = is_binary_name(path);
-  format.compression = compression_of_name(path);
   format.atom = { given.scaled != 0, given.image != 0 };
-  const std::string columns = text_of(given.columns);
-  for (const std::string_view name : split_words(columns))
-  {
-    format.columns.emplace_back(name);
-  }
   const std::string label = text_of(given.label);
   format.counted = label == "Automatic" ? "" : label;
-  const std::string numbers = text_of(given.numbers);
-  format.numbers = parse_number_format(numbers.empty() ? "Automatic" : numbers);
   format.units = given.write_units != 0;
   format.time = given.write_time != 0;
   format.sort_by_id = given.sort_by_id != 0;

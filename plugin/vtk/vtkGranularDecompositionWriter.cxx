@@ -2,21 +2,19 @@
 #include "vtkGranularDecompositionWriter.h"
 
 #include "private/decomposition/voxels.h"
-#include "private/decomposition/vtu_file.h"
-#include "private/dump/dump_input.h"
 #include "private/request/expect_data.h"
 #include "private/request/name_file.h"
-#include "private/writing/whole_file.h"
 #include "private/writing/writer.h"
 
 #include "granular/decomposition/decomposition_text.h"
-#include "granular/dump/write/dump_format.h"
+#include "granular/writing/file_names.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,20 +67,19 @@ class vtkGranularDecompositionWriter::File : public WholeFile
 {
 public:
   File(vtkGranularDecompositionWriter* self, Internals& internals)
-    : WholeFile({ self->FileName, static_cast<granular::Durability>(self->Durable), "subdomains",
-                  self->Dialect == PUBLIC ? "PUBLIC" : "", self->Dialect == PUBLIC },
-        internals.GetRanks(), internals.Inputs, *self->Past, internals.Notices)
+    : WholeFile(
+        self->FileName, self->Dialect == PUBLIC, internals.MakeOptions(self), internals.GetRanks())
     , Self(self)
     , Kind(KindOf(self->FileName))
   {
   }
 
 protected:
-  FrameFacts Take(vtkDataObject* input, const FrameTime& time, granular::Notices& notices) override
+  std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) override
   {
     auto* grid = this->Check(input);
-    NameFile({ this->Form.Path }, [&] { this->All = ReadVoxels(grid, notices); });
-    return MakeFacts(grid, grid, grid->GetNumberOfCells() > 0, time);
+    NameFile({ this->Path }, [&] { this->All = ReadVoxels(grid, notices); });
+    return std::make_unique<FieldInput>(grid, grid->GetNumberOfCells());
   }
 
   void Gather(granular::Notices& notices, granular::Progress& progress) override
@@ -92,37 +89,31 @@ protected:
     checks.overlap = granular::Answer::None;
     checks.gap = granular::Answer::None;
     granular::check_subdomains(
-      this->All.subdomains, checks, { .path = this->Form.Path }, notices, progress);
+      this->All.subdomains, checks, { .path = this->Path }, notices, progress);
   }
 
   std::string Encode(
-    const SharedFacts& facts, granular::Notices& notices, granular::Progress& progress) override
+    std::optional<double> time, granular::Notices& notices, granular::Progress& progress) override
   {
     if (this->Self->Dialect == PUBLIC)
     {
-      std::string text;
-      NameFile({ this->Form.Path }, [&] { text = granular::encode_grid(this->All, notices); });
-      return text;
+      return granular::encode_grid(this->All, notices);
     }
-    if (this->Kind == FileKind::Text)
-    {
-      return granular::encode_voxels(this->All, progress);
-    }
-    return EncodeVtu(
-      this->All, facts.HasTime ? std::optional(facts.Time) : std::nullopt, this->Form.Path);
+    return this->Kind == FileKind::Text ? granular::encode_voxels(this->All, progress)
+                                        : granular::encode_vtu(this->All, time, progress);
   }
 
 private:
   vtkUnstructuredGrid* Check(vtkDataObject* input) const
   {
     auto* grid = ExpectData<vtkUnstructuredGrid>(
-      input, "a vtkUnstructuredGrid of voxels to write", { this->Form.Path });
+      input, "a vtkUnstructuredGrid of voxels to write", { this->Path });
     const auto box = FindBox(grid->GetFieldData());
     if (box && box->tilted)
     {
       throw granular::UnsupportedError(
         "expected a box along the axes, got a tilted one, whose subdomains are no voxels",
-        { this->Form.Path });
+        { this->Path });
     }
     return grid;
   }
@@ -133,10 +124,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-vtkGranularDecompositionWriter::vtkGranularDecompositionWriter()
-  : Past(std::make_unique<WrittenFiles>())
-{
-}
+vtkGranularDecompositionWriter::vtkGranularDecompositionWriter() = default;
 
 //------------------------------------------------------------------------------
 vtkGranularDecompositionWriter::~vtkGranularDecompositionWriter() = default;
@@ -146,7 +134,6 @@ void vtkGranularDecompositionWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Dialect: " << this->Dialect << "\n";
-  os << indent << "Binary: " << this->Binary << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -159,10 +146,6 @@ void vtkGranularDecompositionWriter::SetDialect(int dialect)
 std::unique_ptr<FrameWriter> vtkGranularDecompositionWriter::OpenFile(Internals& internals)
 {
   const std::string path = this->FileName;
-  if (this->Binary)
-  {
-    throw granular::UnsupportedError("expected Binary off: decompositions are text", { path });
-  }
   if (granular::is_name_of_ranks(path))
   {
     throw granular::UnsupportedError(

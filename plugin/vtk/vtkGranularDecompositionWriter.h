@@ -11,9 +11,6 @@
  * The ending chooses the format: legacy text for `.vtk` and `.decomposition`, XML text for `.vtu`. A `*` in the name stands for the
  * timestep. Overlaps and gaps of subdomains are not checked.
  *
- * A timestep is written once, like LIGGGHTS with its lasttimestep: a second request with the same name and Dialect leaves the file
- * alone, and Written is true. Data without a timestep are written again only if they have changed.
- *
  * vtkGranularWriter describes the rest. ParallelMode has no effect here.
  */
 
@@ -24,11 +21,6 @@
 #include "vtkGranularWriter.h"
 
 #include <memory> // for std::unique_ptr
-
-namespace vtkGranularPrivate
-{
-class WrittenFiles;
-}
 
 class VTKGRANULAR_EXPORT vtkGranularDecompositionWriter : public vtkGranularWriter
 {
@@ -53,15 +45,6 @@ public:
   vtkGetMacro(Dialect, int);
   ///@}
 
-  ///@{
-  /**
-   * Off by default. On is an error of Write(), because the format is text.
-   */
-  vtkSetMacro(Binary, bool);
-  vtkGetMacro(Binary, bool);
-  vtkBooleanMacro(Binary, bool);
-  ///@}
-
 protected:
   vtkGranularDecompositionWriter();
   ~vtkGranularDecompositionWriter() override;
@@ -69,15 +52,12 @@ protected:
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Dialect = INL;
-  bool Binary = false;
 
 private:
   vtkGranularDecompositionWriter(const vtkGranularDecompositionWriter&) = delete;
   void operator=(const vtkGranularDecompositionWriter&) = delete;
 
   class File;
-
-  std::unique_ptr<vtkGranularPrivate::WrittenFiles> Past;
 };
 
 #endif

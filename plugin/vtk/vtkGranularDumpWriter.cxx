@@ -3,7 +3,7 @@
 
 #include "private/request/expect_data.h"
 #include "private/request/text_of.h"
-#include "private/writing/rows_file.h"
+#include "private/writing/writer.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
@@ -146,7 +146,8 @@ std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internal
     internals.Tell(this, "Columns are of the Style Custom: this is Atom");
   }
   granular::DumpFormat format =
-    MakeFormat(this->FileName, DialectOf(this->Dialect), this->Columns, this->NumberFormat);
+    granular::format_of_name(this->FileName, TextOf(this->Columns), TextOf(this->NumberFormat));
+  format.dialect = DialectOf(this->Dialect);
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
   format.atom = { this->Scaled, this->Image };
   format.units = this->WriteUnits;

@@ -3,18 +3,17 @@
 
 #include "private/euler/euler_input.h"
 #include "private/request/name_file.h"
-#include "private/writing/whole_file.h"
 #include "private/writing/writer.h"
 
-#include "granular/bytes/compression.h"
-#include "granular/dump/write/dump_format.h"
 #include "granular/euler/euler_text.h"
+#include "granular/writing/file_names.h"
 
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
-#include <initializer_list>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,7 +23,6 @@ vtkStandardNewMacro(vtkGranularEulerWriter);
 
 namespace
 {
-constexpr std::initializer_list<const char*> Names = { "LIGGGHTS", "Wide", "Automatic" };
 static_assert(
   vtkGranularEulerWriter::LIGGGHTS == static_cast<int>(granular::EulerDialect::Liggghts) &&
   vtkGranularEulerWriter::WIDE == static_cast<int>(granular::EulerDialect::Wide) &&
@@ -39,39 +37,29 @@ class vtkGranularEulerWriter::File : public WholeFile
 {
 public:
   File(vtkGranularEulerWriter* self, Internals& internals)
-    : WholeFile({ self->FileName, static_cast<granular::Durability>(self->Durable), "cells",
-                  Names.begin()[self->Dialect] },
-        internals.GetRanks(), internals.Inputs, *self->Past, internals.Notices)
+    : WholeFile(self->FileName, false, internals.MakeOptions(self), internals.GetRanks())
     , Dialect(static_cast<granular::EulerDialect>(self->Dialect))
   {
   }
 
 protected:
-  FrameFacts Take(
-    vtkDataObject* input, const FrameTime& time, granular::Notices& vtkNotUsed(notices)) override
+  std::unique_ptr<RowsInput> Take(
+    vtkDataObject* input, granular::Notices& vtkNotUsed(notices)) override
   {
-    NameFile({ this->Form.Path }, [&] { this->Own = ReadCells(input); });
-    return MakeFacts(input, this->Own.Points, this->Own.Cells.count() > 0, time);
+    NameFile({ this->Path }, [&] { this->Own = ReadCells(input); });
+    return std::make_unique<FieldInput>(this->Own.Points, this->Own.Cells.count());
   }
 
   void Gather(granular::Notices&, granular::Progress&) override
   {
-    NameFile({ this->Form.Path },
-      [&] { this->All = GatherCells(std::exchange(this->Own, {}), this->Ranks); });
+    NameFile(
+      { this->Path }, [&] { this->All = GatherCells(std::exchange(this->Own, {}), this->Ranks); });
   }
 
   std::string Encode(
-    const SharedFacts&, granular::Notices& notices, granular::Progress& progress) override
+    std::optional<double>, granular::Notices& notices, granular::Progress& progress) override
   {
-    granular::Notices found;
-    std::string text = granular::encode_euler(this->All, this->Dialect, found, progress);
-    for (granular::Notice& notice : found)
-    {
-      notice.where.path = this->Form.Path;
-      notices.push_back(std::move(notice));
-    }
-    const granular::Compression how = granular::compression_of_name(this->Form.Path);
-    return how == granular::Compression::None ? text : granular::compress(text, how);
+    return granular::encode_euler(this->All, this->Dialect, notices, progress);
   }
 
 private:
@@ -81,10 +69,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-vtkGranularEulerWriter::vtkGranularEulerWriter()
-  : Past(std::make_unique<WrittenFiles>())
-{
-}
+vtkGranularEulerWriter::vtkGranularEulerWriter() = default;
 
 //------------------------------------------------------------------------------
 vtkGranularEulerWriter::~vtkGranularEulerWriter() = default;
@@ -99,7 +84,7 @@ void vtkGranularEulerWriter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkGranularEulerWriter::SetDialect(int dialect)
 {
-  this->SetChoice("Dialect", this->Dialect, dialect, Names);
+  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "Wide", "Automatic" });
 }
 
 //------------------------------------------------------------------------------

@@ -14,9 +14,6 @@
  * The name may have any ending; text is compressed if it ends in `.gz` or `.zst`. A `*` in the name stands for the timestep; without
  * it, a file holds one timestep.
  *
- * A timestep is written once, as in LIGGGHTS: a second request with the same name and Dialect leaves the file alone, and Written is
- * true. Data without a timestep are written again only if they have changed.
- *
  * vtkGranularWriter describes the rest. ParallelMode and Threads have no effect here.
  */
 
@@ -27,11 +24,6 @@
 #include "vtkGranularWriter.h"
 
 #include <memory> // for std::unique_ptr
-
-namespace vtkGranularPrivate
-{
-class WrittenFiles;
-}
 
 class VTKGRANULAR_EXPORT vtkGranularEulerWriter : public vtkGranularWriter
 {
@@ -71,8 +63,6 @@ private:
   void operator=(const vtkGranularEulerWriter&) = delete;
 
   class File;
-
-  std::unique_ptr<vtkGranularPrivate::WrittenFiles> Past;
 };
 
 #endif

@@ -4,7 +4,7 @@
 #include "private/local/local_input.h"
 #include "private/request/name_file.h"
 #include "private/request/text_of.h"
-#include "private/writing/rows_file.h"
+#include "private/writing/writer.h"
 
 #include "vtkObjectFactory.h"
 
@@ -76,7 +76,8 @@ void vtkGranularLocalWriter::SetDialect(int dialect)
 std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& internals)
 {
   granular::DumpFormat format =
-    MakeFormat(this->FileName, DialectOf(this->Dialect), this->Columns, this->NumberFormat);
+    granular::format_of_name(this->FileName, TextOf(this->Columns), TextOf(this->NumberFormat));
+  format.dialect = DialectOf(this->Dialect);
   format.style = granular::DumpStyle::Local;
   const std::string label = TextOf(this->Label);
   format.counted = label == "Automatic" ? std::string() : label;

@@ -4,7 +4,8 @@
  * @brief   Base class of writers: the file, the frames and the ranks.
  *
  * Write() writes what the input shows now, or with WriteTimeSteps all its timesteps, one after the other. A `*` in the name of the file
- * stands for the timestep and a `%` for the rank, one file each, as in the `dump` command.
+ * stands for the timestep and a `%` for the rank, one file each, as in the `dump` command. Two frames of one timestep are an error
+ * of Write(); another Write() replaces the file.
  *
  * Files are written under a temporary name and renamed when complete. After an error the old file is untouched, Write() returns 0, and
  * GetErrorCode() is not vtkErrorCode::NoError. A killed program leaves the old file or the new one, and a hidden temporary file, which

@@ -314,9 +314,6 @@ TEST(DecompositionWriter, OtherData)
 TEST(DecompositionWriter, Refused)
 {
   CellWriter writer(NewName("a.vtk"), MakeTwo());
-  writer->BinaryOn();
-  writer.ExpectUnsupported("expected Binary off: decompositions are text");
-  writer->BinaryOff();
   writer->SetDialect(2);
   EXPECT_EQ(writer.Said->Errors, Lines{ "expected Dialect 0 (INL) or 1 (PUBLIC), got 2" });
   EXPECT_EQ(writer->GetDialect(), vtkGranularDecompositionWriter::INL);
@@ -396,8 +393,7 @@ TEST(DecompositionWriter, FileAStepWithoutSteps)
   writer.ExpectWritten();
   EXPECT_EQ(Beside(writer->GetFileName()), (Lines{ "a_0.vtk", "a_1.vtk" }));
   EXPECT_EQ(writer.Said->Warnings,
-    Lines{ "the input has neither field data 'timestep' nor a time of a whole number: time steps "
-           "are counted from 0" });
+    Lines{ "the input has no field data 'timestep': frames are counted from 0" });
 }
 
 TEST(DecompositionWriter, SeveralStepsInAFile)
@@ -412,15 +408,30 @@ TEST(DecompositionWriter, SeveralStepsInAFile)
   EXPECT_EQ(Content(writer->GetFileName()), "old");
   writer->SetDialect(vtkGranularDecompositionWriter::PUBLIC);
   EXPECT_EQ(writer.Bytes(), TwoAsGrid + TwoAsGrid + TwoAsGrid);
-  // one and the same timestep is written once
-  source->Change = [](vtkUnstructuredGrid* grid, double time)
-  { AddField(grid, "timestep", { time < 2 ? 5.0 : 6.0 }); };
-  source->Modified();
-  EXPECT_EQ(writer.Bytes(), TwoAsGrid + TwoAsGrid);
 }
 
-/// LIGGGHTS' lasttimestep: who asks for the same again leaves the file.
-TEST(DecompositionWriter, OncePerTimestep)
+/// Readers would show one of them.
+TEST(DecompositionWriter, TwoFramesOfOneTimestep)
+{
+  vtkNew<Source> source;
+  source->Times = { 0, 1, 2 };
+  source->Change = [](vtkUnstructuredGrid* grid, double time)
+  { AddField(grid, "timestep", { time < 2 ? 5.0 : 6.0 }); };
+  const std::string file = WriteFile("a_5.vtk", "old");
+  for (const char* name : { "a_5.vtk", "a_*.vtk" })
+  {
+    CellWriter writer(NewName(name));
+    writer->SetInputConnection(source->GetOutputPort());
+    writer->SetDialect(vtkGranularDecompositionWriter::PUBLIC);
+    writer->WriteTimeStepsOn();
+    writer.ExpectError(vtkErrorCode::FileFormatError,
+      file + ": expected a timestep of its own for each frame, got timestep 5 again");
+  }
+  EXPECT_EQ(Beside(file), Lines{ "a_5.vtk" });
+}
+
+/// A file is written as often as somebody asks for it.
+TEST(DecompositionWriter, WrittenAgain)
 {
   auto grid = MakeTwo();
   AddField(grid, "timestep", { 10 });
@@ -431,65 +442,12 @@ TEST(DecompositionWriter, OncePerTimestep)
     const std::string path = std::string(name) == "a_*.vtk" ? star : writer->GetFileName();
     writer.ExpectWritten();
     const std::string bytes = Content(path);
-    ASSERT_FALSE(bytes.empty());
-    {
-      const Stamped stamped(path);
-      writer.ExpectWritten();
-      EXPECT_TRUE(stamped.IsUntouched());
-      EXPECT_EQ(writer.Said->Warnings, Lines{});
-      grid->GetPoints()->SetPoint(0, 0, 0, 0); // the same
-      grid->Modified();
-      writer.ExpectWritten();
-      EXPECT_TRUE(stamped.IsUntouched());
-      EXPECT_EQ(writer.Said->Warnings, Lines{});
-    }
-    { // what is not there is written, and so is another dialect, or by another writer
-      std::filesystem::remove(path);
-      writer.ExpectWritten();
-      EXPECT_EQ(Content(path), bytes);
-      const Stamped stamped(path);
-      CellWriter(writer->GetFileName(), grid).ExpectWritten();
-      EXPECT_FALSE(stamped.IsUntouched());
-    }
+    const Stamped stamped(path);
+    writer.ExpectWritten();
+    EXPECT_FALSE(stamped.IsUntouched());
+    EXPECT_EQ(writer.Said->Warnings, Lines{});
+    EXPECT_EQ(Content(path), bytes);
   }
-}
-
-TEST(DecompositionWriter, OncePerTimestepWithOtherData)
-{
-  auto grid = MakeTwo();
-  AddField(grid, "timestep", { 10 });
-  CellWriter writer(NewName("a.vtk"), grid);
-  writer.ExpectWritten();
-  auto other = MakeTwo(Voxel, VTK_VOXEL, { Two[0], { 1, 3, 0, 1, 0, 0.1 } });
-  AddField(other, "timestep", { 10 });
-  writer->SetInputData(other);
-  const Stamped stamped(writer->GetFileName());
-  writer.ExpectWritten();
-  EXPECT_TRUE(stamped.IsUntouched());
-  EXPECT_EQ(writer.Said->Warnings,
-    Lines{ std::string(writer->GetFileName()) +
-      ": this writer has written timestep 10 already, with other subdomains: the file is left as "
-      "it was" });
-  AddField(other, "timestep", { 11 });
-  writer.ExpectWritten();
-  EXPECT_FALSE(stamped.IsUntouched());
-  writer->SetDialect(vtkGranularDecompositionWriter::PUBLIC);
-  EXPECT_EQ(writer.Bytes().substr(0, 26), "# vtk DataFile Version 2.0");
-}
-
-/// Without a timestep data that have not changed are written once.
-TEST(DecompositionWriter, OnceWithoutTimestep)
-{
-  auto grid = MakeTwo();
-  CellWriter writer(NewName("a.vtk"), grid);
-  writer.ExpectWritten();
-  const Stamped stamped(writer->GetFileName());
-  writer.ExpectWritten();
-  EXPECT_TRUE(stamped.IsUntouched());
-  AddCells<vtkIntArray>(grid, "nlocal", { 1, 2 });
-  writer.ExpectWritten();
-  EXPECT_FALSE(stamped.IsUntouched());
-  EXPECT_NE(Content(writer->GetFileName()).find("\n1 2 \n"), std::string::npos);
 }
 
 /// A failure is no reason to believe that the file is there.

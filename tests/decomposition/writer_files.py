@@ -131,6 +131,6 @@ assert file.GetOutput().GetNumberOfCells() == 4
 
 # ---- properties --------------------------------------------------------------------------------------------
 
-check_properties(WRITER, domains, Dialect="INL", Binary=0, WriteTimeSteps=0)
+check_properties(WRITER, domains, Dialect="INL", WriteTimeSteps=0)
 check_nothing_left()
 print("written")

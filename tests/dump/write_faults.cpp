@@ -470,7 +470,9 @@ TEST(WriteFaults, killed)
     Progress silent;
     DumpWriter writer(folder.path("old"), {}, {}, alone);
     writer.write(rows.view(), notices, silent);
-    writer.write(rows.view(), notices, tell);
+    FrameView next = rows.view();
+    ++next.header.timestep;
+    writer.write(next, notices, tell);
     ::_exit(1);
   }
   char word = 0;

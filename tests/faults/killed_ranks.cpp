@@ -20,7 +20,7 @@ namespace
 {
 using namespace granular;
 
-void write(const char* const* arguments, const FrameView& own, Communicator& ranks)
+void write(const char* const* arguments, FrameView own, Communicator& ranks)
 {
   const std::string path = arguments[0];
   DumpFormat format;
@@ -32,7 +32,7 @@ void write(const char* const* arguments, const FrameView& own, Communicator& ran
   Notices notices;
   Progress progress;
   DumpWriter writer(path, format, options, ranks);
-  for (int frame = 0; frame < 3; ++frame)
+  for (own.header.timestep = 0; own.header.timestep < 3; ++own.header.timestep)
   {
     writer.write(own, notices, progress);
   }

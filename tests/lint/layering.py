@@ -64,7 +64,8 @@ ROOMS = {room: words.split() for room, words in (
     ("dump/formats", "common numbers bytes text frames"),
     ("dump/read", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/formats"),
-    ("dump/write", "common numbers bytes geometry parallel frames particles sorting"),
+    ("writing", "common bytes parallel frames"),
+    ("dump/write", "common numbers bytes geometry parallel frames particles sorting writing"),
     ("packing", "common memory geometry parallel particles"),
     ("decomposition", "common numbers bytes memory geometry parallel vtk_files frames particles"),
     ("grid", "common numbers geometry particles"),

@@ -96,7 +96,6 @@ def decomposition():
     check_refused(domains, "never.vtk", AttributeError, Style="Atom")
     check_refused(domains, "never.vtk", ValueError, Dialect="LAMMPS")
     check_refused(domains, "all.vtk", WriteTimeSteps=1)
-    check_refused(domains, "never.vtu", Binary=1)
     check_refused(domains, "never.vtu", Dialect="PUBLIC")
 
 

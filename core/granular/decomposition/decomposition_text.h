@@ -6,6 +6,7 @@
 #include "granular/common/progress.h"
 #include "granular/decomposition/subdomains.h"
 
+#include <optional>
 #include <string>
 
 namespace granular
@@ -14,6 +15,11 @@ namespace granular
 /// order, cell arrays nlocal and proc if known. The corners are in the right order, coordinates are doubles with the fewest
 /// digits that read back the same, and counts of 2^31 and more are vtktypeint64. Throws Cancelled.
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress);
+
+/// Returns the same voxels and arrays as a .vtu file of text, with the field TimeValue if the time is known; nlocal has 64 bits if a
+/// count needs them. Throws Cancelled.
+std::string encode_vtu(
+  const Decomposition& decomposition, std::optional<double> time, Progress& progress);
 
 /// Returns the rectilinear grid of LIGGGHTS-PUBLIC, byte for byte (%f: six decimals). A notice tells if these are too few:
 /// different cuts become equal, or one moves by more than a thousandth of the thinnest slab. Throws Error if the box would

@@ -213,8 +213,9 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     frames are there. A file of the run that a frame comes from, under any name, is replaced after the last frame.
 
     Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, masked values, two arrays
-    with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame. It is an
-    error to replace a file of the run that has an incomplete frame, because a simulation may be writing it, or pieces of frames.
+    with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame. Two frames
+    of one timestep are an error. It is an error to replace a file of the run that has an incomplete frame, because a simulation may
+    be writing it, or pieces of frames.
     """
     is_arrays = isinstance(data, Mapping) and not isinstance(data, Frame)
     frames = [data] if is_arrays or isinstance(data, Frame) else data

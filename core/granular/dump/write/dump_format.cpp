@@ -2,34 +2,24 @@
 #include "granular/dump/write/dump_format.h"
 
 #include "granular/common/error.h"
+#include "granular/common/words.h"
 
 #include <algorithm>
 
 namespace granular
 {
-namespace
+DumpFormat format_of_name(
+  std::string_view path, const std::string& columns, const std::string& numbers)
 {
-/// Whether a name ends so, in capitals or not. The end is in small letters.
-bool ends_with(std::string_view path, std::string_view end) noexcept
-{
-  return path.size() >= end.size() &&
-    std::equal(end.begin(), end.end(), path.end() - static_cast<std::ptrdiff_t>(end.size()),
-      [](char small, char c)
-      { return c == small || (c >= 'A' && c <= 'Z' && c - 'A' + 'a' == small); });
-}
-
-/// Where the file name begins.
-std::size_t begin_of_name(const std::string& path) noexcept
-{
-  const std::size_t slash = path.rfind('/');
-  return slash == path.npos ? 0 : slash + 1;
-}
-
-std::string replace_first(const std::string& path, char mark, const std::string& text)
-{
-  const std::size_t place = path.find(mark, begin_of_name(path));
-  return place == path.npos ? path : path.substr(0, place) + text + path.substr(place + 1);
-}
+  DumpFormat format;
+  format.binary = is_binary_name(path);
+  format.compression = compression_of_name(path);
+  for (const std::string_view name : split_words(columns))
+  {
+    format.columns.emplace_back(name);
+  }
+  format.numbers = parse_number_format(numbers.empty() ? "Automatic" : numbers);
+  return format;
 }
 
 Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept
@@ -70,47 +60,5 @@ void check_format(const DumpFormat& format, const std::string& path)
         word + "'",
       { path });
   }
-}
-
-bool is_binary_name(std::string_view path) noexcept
-{
-  if (const Compression compression = compression_of_name(path); compression != Compression::None)
-  {
-    path.remove_suffix(compression == Compression::Gzip ? 3 : 4);
-  }
-  return ends_with(path, ".bin") || ends_with(path, ".lammpsbin");
-}
-
-Compression compression_of_name(std::string_view path) noexcept
-{
-  return ends_with(path, ".gz") ? Compression::Gzip
-    : ends_with(path, ".zst")   ? Compression::Zstd
-                                : Compression::None;
-}
-
-bool is_name_of_steps(const std::string& path) noexcept
-{
-  return path.find('*', begin_of_name(path)) != path.npos;
-}
-
-bool is_durable(Durability durability, const std::string& path) noexcept
-{
-  return durability == Durability::On ||
-    (durability == Durability::Automatic && !is_name_of_steps(path));
-}
-
-std::string name_of_step(const std::string& path, std::int64_t timestep)
-{
-  return replace_first(path, '*', std::to_string(timestep));
-}
-
-bool is_name_of_ranks(const std::string& path) noexcept
-{
-  return path.find('%', begin_of_name(path)) != path.npos;
-}
-
-std::string name_of_rank(const std::string& path, int rank)
-{
-  return replace_first(path, '%', std::to_string(rank));
 }
 }

@@ -275,8 +275,7 @@ void DumpWriter::write(const FrameView& frame, Notices& notices, Progress& progr
     {
       FramePlan plan = plan_frame(frame, format_, ranks_, notices);
       format_.dialect = plan.header.dialect; // later frames have the same
-      this->check_step(plan.header.timestep, notices);
-      const std::string path = name_of_step(path_, plan.header.timestep);
+      const std::string path = name_of_new_step(path_, plan.header.timestep, steps_);
       const bool is_read = held_.is_read(name_of_rank(path, ranks_.rank()), ranks_);
       if (is_name_of_steps(path_))
       {
@@ -298,22 +297,6 @@ void DumpWriter::expect_whole() const
     throw Error(
       "expected a writer whose frames are whole, got one that failed in a frame before", { path_ });
   }
-}
-
-void DumpWriter::check_step(std::int64_t timestep, Notices& notices)
-{
-  if (steps_.insert(timestep).second)
-  {
-    return;
-  }
-  const std::string step = "timestep " + std::to_string(timestep);
-  if (is_name_of_steps(path_))
-  {
-    throw Error("expected a timestep of its own for each frame, got " + step +
-        " again: its file is written already",
-      { name_of_step(path_, timestep) });
-  }
-  notices.push_back({ {}, step + " is written more than once: most programs show one of them" });
 }
 
 void DumpWriter::write_rows(

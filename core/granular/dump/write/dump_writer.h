@@ -7,6 +7,7 @@
 #include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
+#include "granular/writing/write_options.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,24 +16,7 @@
 
 namespace granular
 {
-/// Ways of ranks to write a file together.
-enum class ParallelMode : std::uint8_t
-{
-  Gather, ///< the first rank writes; the others send their rows, one rank after the other, chunk by chunk
-  MpiIo ///< each rank writes its rows in place; Gather for compressed files and ranks without MPI-IO
-};
-
 struct FramePlan;
-
-/// Options of the writing that do not change the bytes.
-struct WriteOptions
-{
-  ParallelMode mode = ParallelMode::Gather;
-  int threads = 1; ///< at least 1, of each rank
-  Durability durable = Durability::Automatic;
-  const InputFiles* inputs =
-    nullptr; ///< files that are read meanwhile, the same on all ranks; null: none
-};
 
 /// Writes a dump of one or more frames, from the rows of all ranks in rank order. The bytes do not depend on the number of
 /// ranks or threads. The file appears when finish() is done; until then, and if the writer ends without it, the old file is
@@ -52,9 +36,8 @@ public:
   DumpWriter& operator=(const DumpWriter&) = delete;
   ~DumpWriter();
 
-  /// Adds a frame: see FrameView for its data and plan_columns for its columns. A repeated timestep gets a notice, and an
-  /// Error if each timestep has its own file. The first frame whose numbers lose too much, see RoundingLoss, gets a notice with the
-  /// amount. Throws Error, Cancelled; std::logic_error after finish().
+  /// Adds a frame: see FrameView for its data and plan_columns for its columns. A repeated timestep is an Error. The first frame whose
+  /// numbers lose too much, see RoundingLoss, gets a notice with the amount. Throws Error, Cancelled; std::logic_error after finish().
   void write(const FrameView& frame, Notices& notices, Progress& progress);
 
   /// Gives the file its name. No frame can be added afterwards.
@@ -65,7 +48,6 @@ private:
 
   void expect_whole() const;
   void close();
-  void check_step(std::int64_t timestep, Notices& notices);
   void write_rows(const FrameView& frame, FramePlan& plan, Notices& notices, Progress& progress);
 
   std::string path_;

@@ -147,6 +147,12 @@ void RowsInput::SeeArrays(vtkDataSetAttributes* data, granular::Notices& notices
   }
 }
 
+FieldInput::FieldInput(vtkDataObject* input, std::int64_t rows)
+  : RowsInput(input, "rows")
+{
+  this->View.rows = rows;
+}
+
 DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
   : RowsInput(input, "points")
 {

@@ -8,6 +8,7 @@
 #include "granular/geometry/box.h"
 #include "granular/particles/frame_view.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -60,6 +61,15 @@ protected:
 
 private:
   void ReadFieldData(vtkFieldData* data);
+};
+
+/**
+ * A view of field data alone, for rows that are read in another way.
+ */
+class FieldInput : public RowsInput
+{
+public:
+  FieldInput(vtkDataObject* input, std::int64_t rows);
 };
 
 /**

@@ -5,46 +5,16 @@
 #include "vtkGranularWriter.h"
 
 #include "private/request/processes.h"
+#include "private/writing/frame_writer.h"
 
 #include "granular/common/error.h"
-#include "granular/common/progress.h"
-#include "granular/dump/write/dump_writer.h"
 #include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
+#include "granular/writing/write_options.h"
 
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
-#include <vector>
-
-class vtkDataObject;
-
-namespace vtkGranularPrivate
-{
-/**
- * The time and timestep of a frame, as far as the pipeline knows them.
- */
-struct FrameTime
-{
-  std::optional<double> Time;       ///< that the input shows
-  vtkTypeInt64 Frame = 0;           ///< number of the frame among those that are written, from 0
-  std::optional<vtkTypeInt64> Step; ///< the time, where those of all frames are whole numbers
-};
-
-/**
- * A file that is being written frame by frame. All functions are collective and throw what the core throws.
- */
-class FrameWriter
-{
-public:
-  virtual ~FrameWriter() = default;
-
-  virtual void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
-    granular::Progress& progress) = 0;
-  virtual void Finish() = 0;
-};
-}
 
 /**
  * The state of a writer while it writes.

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularFrameWriter_h
+#define vtkGranularFrameWriter_h
+
+#include "private/dump/dump_input.h"
+
+#include "granular/dump/write/dump_writer.h"
+#include "granular/parallel/communicator.h"
+#include "granular/writing/whole_writer.h"
+
+#include "vtkType.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+class vtkDataObject;
+
+namespace vtkGranularPrivate
+{
+/**
+ * The time and timestep of a frame, as far as the pipeline knows them.
+ */
+struct FrameTime
+{
+  std::optional<double> Time;       ///< that the input shows
+  vtkTypeInt64 Frame = 0;           ///< number of the frame among those that are written, from 0
+  std::optional<vtkTypeInt64> Step; ///< the time, where those of all frames are whole numbers
+};
+
+/**
+ * A file that is being written frame by frame. All functions are collective and throw what the core throws.
+ */
+class FrameWriter
+{
+public:
+  virtual ~FrameWriter() = default;
+
+  void Write(vtkDataObject* input, const FrameTime& time, granular::Notices& notices,
+    granular::Progress& progress);
+  virtual void Finish() = 0;
+
+protected:
+  FrameWriter(std::string path, granular::Communicator& ranks);
+
+  /**
+   * Takes this rank's part of a frame. Not collective.
+   */
+  virtual std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) = 0;
+
+  /**
+   * Writes a frame, of which this rank has these rows. Timestep and time are those of all ranks.
+   */
+  virtual void WriteRows(
+    const granular::FrameView& own, granular::Notices& notices, granular::Progress& progress) = 0;
+
+  /**
+   * Returns true if the user should know what serves as the timestep of an input without one.
+   */
+  virtual bool TellsStep(const FrameTime& time) const = 0;
+
+  const std::string Path;
+  granular::Communicator& Ranks;
+};
+
+/**
+ * A dump that is being written, of particles or other rows.
+ */
+class RowsFile : public FrameWriter
+{
+public:
+  RowsFile(const char* path, granular::DumpFormat format, const granular::WriteOptions& options,
+    granular::Communicator& ranks);
+
+  void Finish() final;
+
+private:
+  void WriteRows(
+    const granular::FrameView& own, granular::Notices& notices, granular::Progress& progress) final;
+  bool TellsStep(const FrameTime& time) const final;
+
+  granular::DumpWriter Writer;
+};
+
+/**
+ * A text file that the first rank writes for all ranks at once.
+ */
+class WholeFile : public FrameWriter
+{
+public:
+  /**
+   * holdsMany: as for granular::WholeWriter.
+   */
+  WholeFile(const char* path, bool holdsMany, const granular::WriteOptions& options,
+    granular::Communicator& ranks);
+
+  void Finish() final;
+
+protected:
+  /**
+   * Gathers the parts of all ranks. Collective.
+   */
+  virtual void Gather(granular::Notices& notices, granular::Progress& progress) = 0;
+
+  /**
+   * Returns the text of the frame, on the first rank.
+   */
+  virtual std::string Encode(
+    std::optional<double> time, granular::Notices& notices, granular::Progress& progress) = 0;
+
+private:
+  void WriteRows(
+    const granular::FrameView& own, granular::Notices& notices, granular::Progress& progress) final;
+  bool TellsStep(const FrameTime& time) const final;
+
+  granular::WholeWriter Writer;
+};
+
+/**
+ * Returns the dialect for the property Dialect of a writer of dumps: 0 LIGGGHTS, 1 LAMMPS, any other value that of the
+ * file that was read.
+ */
+std::optional<granular::Dialect> DialectOf(int property);
+}
+
+#endif
