@@ -331,6 +331,10 @@ class Style(unittest.TestCase):
         text = '# SPDX-License-Identifier: BSD-3-Clause\nc.ApplyPreset("Plasma")\nc.ApplyPreset(granular.preset("Plasma"))\nLoadPalette("White")\n'
         self.assertEqual(found(style.check, samples__a_dot_py=text, tests__a_dot_py=text), ["samples/a.py:2", "samples/a.py:4"])
 
+    def test_openings(self):
+        text = SPDX + "\n/// Whether it is.\nint a;\n\n/// Returns it.\n/// Where it is not, 0.\nint b;\n\n/**\n * What it does.\n */\nint c;\n"
+        self.assertEqual(found(style.check, core__a_dot_h=text, tests__a_dot_h=text), ["core/a.h:11", "core/a.h:3"])
+
 
 class TypeNames(unittest.TestCase):
     def test_two_of_a_name(self):

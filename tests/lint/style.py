@@ -28,6 +28,9 @@ SCRIPTS = (
     (r"\bApplyPreset\((?!granular\.preset\()", "names a preset that another ParaView may call otherwise: use granular.preset"),
     (r"\bLoadPalette\(", "stays in the user's own settings: use OverrideColorPalette of SaveScreenshot"),
 )
+# A comment of the product says what something does, or names it: "Returns true if ..." and "Bytes that ..." rather than "Whether ..." and
+# "What ...".
+OPENING = re.compile(r"\s*(?://+|#|/?\*+)\s*((?:What|Whether|Of|How|Where|Who)\b)?")
 # Words that mean "not finished"; spelled so that this file does not hold them.
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME)\b")
 
@@ -80,6 +83,17 @@ def check_script(path, text):
             yield path, tree.line_of(text, match.start()), f"{match.group()} {why}"
 
 
+def check_openings(path, text):
+    if not re.match(r"(core|plugin|cmake|samples)/", path) or not path.endswith((".h", ".cpp", ".cxx", ".py", ".txt", ".cmake")):
+        return
+    inside = False
+    for number, line in enumerate(text.split("\n"), 1):
+        comment = OPENING.match(line)
+        if comment and comment.group(1) and not inside:
+            yield path, number, f"a comment opens with '{comment.group(1)}': say what the thing does, or name it"
+        inside = bool(comment) and line.strip(" /*#") != ""
+
+
 def check(root):
     for path in tree.files(root):
         if NOT_TEXT.search(path):
@@ -89,6 +103,7 @@ def check(root):
         yield from check_licence(path, text)
         yield from check_banned(path, text)
         yield from check_script(path, text)
+        yield from check_openings(path, text)
 
 
 if __name__ == "__main__":
