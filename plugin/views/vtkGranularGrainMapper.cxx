@@ -117,7 +117,7 @@ struct View
   double Place(int axis) const { return this->ToCamera->GetElement(axis, 3); }
   bool IsInFront() const { return this->Place(2) < 0.5 * this->Near; }
 
-  // Of the place, where the line from the camera meets z = -1; 0 if it is the camera.
+  // Returns where the line from the camera to the place meets z = -1; 0 if it is the camera.
   double Tangent(int axis) const
   {
     if (this->IsParallel())

@@ -6,7 +6,7 @@
  * Each pixel has the depth, the normal and the light of the surface that its ray meets. A particle is one vertex of the buffers, with
  * 16 bytes for its centre and its radius, and a square in the picture that covers all that can be seen of it.
  *
- * Where the near plane or a clipping plane cuts a particle open, its inside is seen. Of a translucent particle the side towards the
+ * The inside of a particle is seen where the near plane or a clipping plane cuts it open. Of a translucent particle the side towards the
  * camera is seen.
  *
  * Particles are spheres, or superquadrics (|x/a|^n2 + |y/b|^n2)^(n1/n2) + |z/c|^n1 = 1 in the particle's own axes, where the data have

@@ -69,7 +69,7 @@ public:
 
   ///@{
   /**
-   * How light shows on the particles, as of vtkProperty.
+   * Sets the material of the particles, as vtkProperty has it.
    */
   void SetAmbient(double part);
   void SetDiffuse(double part);

@@ -218,7 +218,7 @@ void vtkGranularHiddenGrains::Cover(const Square& square, std::vector<float>& de
   }
 }
 
-// Of each block of cells, the depth behind which all is hidden.
+// Finds for each block of cells the depth behind which all is hidden.
 void vtkGranularHiddenGrains::MakeBlocks()
 {
   this->BlockSides = (this->Side + BlockSide - 1) / BlockSide;

@@ -17,7 +17,7 @@
 class vtkGranularHiddenGrains
 {
 public:
-  /// What leads from the points to the picture: x y z of the camera, which looks along -z, are ToCamera times x y z 1.
+  /// The way from the points to the picture: x y z of the camera, which looks along -z, are ToCamera times x y z 1.
   struct View
   {
     float ToCamera[3][4];

@@ -160,7 +160,7 @@ private:
   }
 
   /**
-   * What is counted, over all processes.
+   * Counts over all processes.
    */
   struct Counts
   {

@@ -254,7 +254,7 @@ private:
   }
 
   /**
-   * Of the whole, which each rank has made.
+   * Fills the output with a piece of the whole, which each rank has made.
    */
   void FillPiece(vtkPolyData* all, vtkPolyData* output)
   {

@@ -87,7 +87,7 @@ public:
 
   ///@{
   /**
-   * What cells there are, by what CellsBy says.
+   * Sets the meaning of the numbers that choose the cells.
    * COUNTS, the default: CellCounts, how many along x, y and z, 1 and more; 10 10 10 by default.
    * SIZE: CellSize, the least edges along x, y and z [m], above 0: as many cells as fit fill the bounds, and are as large
    * as that or larger. For IMAGE_DATA the Bounds must be given. 0.01 0.01 0.01 by default.

@@ -76,7 +76,7 @@ private:
   }
 
   /**
-   * What is counted, over all processes.
+   * Counts over all processes.
    */
   struct Counts
   {
@@ -136,7 +136,7 @@ private:
   }
 
   /**
-   * What all must know alike, also those who have no particles or no rows, and then perhaps no arrays: the names that
+   * Shares the facts that all must know alike, also those who have no particles or no rows, and then perhaps no arrays: the names that
    * "*" stands for, whether there are equilibrium lengths, and where the rows of each begin.
    */
   void ShareNames(granular::JoinRequest& request)
@@ -154,7 +154,7 @@ private:
   }
 
   /**
-   * Where the particles have lost their box it is that of the lines.
+   * Takes the box of the lines where the particles have lost theirs.
    */
   void ShareBox()
   {
@@ -205,7 +205,7 @@ private:
   }
 
   /**
-   * Of the joined.
+   * Returns the values of the joined particles.
    */
   std::vector<double> ReadNumbers(const char* name)
   {
@@ -276,7 +276,7 @@ private:
   }
 
   /**
-   * What lines have of the input.
+   * Passes the arrays of the lines of the input.
    */
   void PassRows(vtkCellData* data) const
   {

@@ -225,7 +225,7 @@ private:
   }
 
   /**
-   * Of each place, the first one of its path.
+   * Returns for each place the first one of its path.
    */
   std::vector<std::int64_t> FindFirsts() const
   {

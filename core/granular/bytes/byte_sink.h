@@ -11,7 +11,7 @@
 
 namespace granular
 {
-/// Whether a new file survives a crash of the whole system, as a loss of power, once it has its name. The numbers are those
+/// Survival of a new file in a crash of the whole system, as a loss of power, once it has its name. The numbers are those
 /// of the C interface and of VTK.
 enum class Durability : std::uint8_t
 {
@@ -39,7 +39,7 @@ public:
   virtual void finish(bool durable) = 0;
 };
 
-/// Who locks the bytes of a file.
+/// The holder of the locks of a file's bytes.
 enum class Locking : std::uint8_t
 {
   Own,   ///< this object

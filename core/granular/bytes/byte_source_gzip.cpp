@@ -38,7 +38,7 @@ public:
   void expect(const SeekPoints::Point& point) override;
 
 private:
-  /// Of a member: which comes next.
+  /// The part of a member that comes next.
   enum class Part
   {
     Header,
@@ -118,7 +118,7 @@ std::size_t GzipDecoder::decode(char* out, std::size_t bytes)
   }
 }
 
-/// What was inflated may still have the end of its member to come.
+/// A member that was inflated may still have the end of its member to come.
 void GzipDecoder::expect(const SeekPoints::Point& point)
 {
   char none = 0;

@@ -129,7 +129,7 @@ private:
   std::shared_ptr<BlockPool> pool_; ///< memory that was touched before
 };
 
-/// What is in a segment, made here or by another thread.
+/// Returns the content of a segment, made here or by another thread.
 std::shared_ptr<const Content> SegmentSource::get(std::size_t number) const
 {
   std::unique_lock lock(mutex_);

@@ -193,13 +193,13 @@ private:
   std::unique_ptr<Unpacker> unpacker_; ///< reading moves it
 };
 
-/// Whether data begin with a magic number, or are a part of one that no text begins with.
+/// Returns true if data begin with a magic number, or are a part of one that no text begins with.
 bool begins_with(std::string_view data, std::string_view magic)
 {
   return data.size() >= 2 && data.substr(0, magic.size()) == magic.substr(0, data.size());
 }
 
-/// Of Zstandard: 0x184D2A50 to 0x184D2A5F, least byte first. The first three are text, too.
+/// Frames of Zstandard that are passed over: 0x184D2A50 to 0x184D2A5F, least byte first. The first three are text, too.
 bool is_skippable_frame(std::string_view data)
 {
   return data.size() >= 4 && (data[0] & 0xf0) == 0x50 && data.substr(1, 3) == "\x2a\x4d\x18";

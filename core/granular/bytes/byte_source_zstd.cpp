@@ -104,7 +104,7 @@ std::size_t ZstdDecoder::decode(char* out, std::size_t bytes)
   }
 }
 
-/// What was decompressed may still have its sum to come.
+/// A frame that was decompressed may still have its sum to come.
 void ZstdDecoder::expect(const SeekPoints::Point&)
 {
   char none = 0;
@@ -140,7 +140,7 @@ void ZstdDecoder::begin_frame()
   flushed_ = true;
 }
 
-/// What is taken must not depend on the way in which a file is read. If the library gets a frame at once, with room for the content, it
+/// The bytes that are taken must not depend on the way in which a file is read. If the library gets a frame at once, with room for the content, it
 /// takes any window, and refuses a content of another size than the header says; else it is the other way round. The header: RFC
 /// 8878, 3.1.1.
 void ZstdDecoder::read_header()
@@ -167,7 +167,7 @@ void ZstdDecoder::read_header()
     : std::optional<std::uint64_t>(size);
 }
 
-/// Of the frame, before they are given away.
+/// Counts bytes of the frame, before they are given away.
 void ZstdDecoder::count_content(std::size_t bytes, bool ended)
 {
   if (content_left_ && (bytes > *content_left_ || (ended && bytes < *content_left_)))

@@ -16,7 +16,7 @@ namespace granular
 class Inflate
 {
 public:
-  /// What a call has done.
+  /// The outcome of a call.
   struct Step
   {
     std::ptrdiff_t read =

@@ -141,7 +141,7 @@ struct InTree
   std::int64_t outside;
   const Node* best = nullptr; ///< of the last point
 
-  /// Of the closed boxes that have the point, the one with the most axes along which lo <= x < hi; of these
+  /// Returns, of the closed boxes that have the point, the one with the most axes along which lo <= x < hi; of these
   /// (flat ones among them) the one that begins last along x, then y, then z, then the last.
   std::int64_t operator()(const double* x) noexcept
   {
@@ -190,7 +190,7 @@ void count_rows(const FrameView& frame, const AbsolutePositions& positions, std:
   }
 }
 
-/// Of each place, and of one more what is outside.
+/// Counts the particles of each place and, in one more, those outside.
 template <class Find>
 ParticleCounts count_all(const FrameView& frame, std::size_t places, const Find& find,
   const Executor& executor, Progress& progress)

@@ -213,7 +213,7 @@ void index_decomposition(
   }
 }
 
-/// Whether the first cell of a grid is a box along the axes, and none is of a type that never is.
+/// Returns true if the first cell of a grid is a box along the axes, and none is of a type that never is.
 bool begins_with_box(const DecompositionGrid& grid)
 {
   Subdomain subdomain;
@@ -222,7 +222,7 @@ bool begins_with_box(const DecompositionGrid& grid)
       grid, 0, [](std::int64_t) { return Where(); }, subdomain) != CornerOrder::None;
 }
 
-/// Whether what was read are the cells of a decomposition. Damaged ones are: the reader says why.
+/// Returns true if a reader gives the cells of a decomposition. Damaged ones are: the reader says why.
 template <class Read>
 bool has_boxes(Read read)
 {

@@ -161,7 +161,7 @@ double add_fixed(std::string& text, double value)
   return as_fixed(value);
 }
 
-/// What six decimals do to the cuts of an axis.
+/// The loss of six decimals in the cuts of an axis.
 class Rounding
 {
 public:

@@ -81,7 +81,7 @@ private:
 /// The slabs of a subdomain along each axis, by number: there are fewer than subdomains.
 using SlabNumbers = std::array<std::uint32_t, 3>;
 
-/// Of each subdomain its slabs; nothing where there are more slabs than a grid of so many has.
+/// Returns the slabs of each subdomain; nothing where there are more slabs than a grid of so many has.
 std::vector<SlabNumbers> find_slabs(
   std::span<const Subdomain> subdomains, std::array<Slabs, 3>& slabs)
 {

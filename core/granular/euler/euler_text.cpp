@@ -63,7 +63,7 @@ private:
   std::size_t done_ = 0;
 };
 
-/// What six decimals do to cells.
+/// The loss of six decimals in cells.
 class DecimalLoss
 {
 public:
@@ -122,7 +122,7 @@ private:
 
   std::string text() const { return loss_.text(Box::from_bounds(lo_, hi_), "centres", names_); }
 
-  /// Where centres are along an axis, and which become the same.
+  /// Finds the places of centres along an axis, and those that become the same.
   void find_places(std::size_t axis)
   {
     std::vector<double> places;

@@ -11,7 +11,7 @@
 
 namespace granular
 {
-/// How the file of dump euler/vtk is written.
+/// Dialects of the file of dump euler/vtk.
 enum class EulerDialect : std::uint8_t
 {
   Liggghts, ///< byte for byte as LIGGGHTS: %f, which has six decimals, of type float

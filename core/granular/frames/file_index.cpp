@@ -11,7 +11,7 @@ namespace granular
 {
 namespace
 {
-/// Whether the file only grew since it was indexed: the same file, and the ends of what it was are
+/// Returns true if the file only grew since it was indexed: the same file, and the ends of what it was are
 /// still there. A run that starts over writes a new file of the same name, or into the same one:
 /// one that changed and is as long as it was is not the same.
 bool only_grew(const ByteSource& packed, const FileStamp& now, const FileIndex& index)
@@ -44,7 +44,7 @@ FileIndex blank(const FileIndex& index)
   return fresh;
 }
 
-/// What else LAMMPS packs dumps with, by the first bytes.
+/// Other packings of LAMMPS, by the first bytes.
 // clang-format off
 constexpr std::pair<std::string_view, const char*> other_packings[] = {
   { "\xfd" "7zXZ", "xz" },
@@ -68,7 +68,7 @@ void refuse_other_packings(const FileFormat& format, const ByteSource& source)
   }
 }
 
-/// What lies behind the last frame that was kept is looked at each time that the file has grown: what
+/// The text behind the last frame that was kept is looked at each time that the file has grown: what
 /// is wrong there is not said again.
 void drop_repeated(Notices& notices, std::size_t known)
 {
@@ -81,7 +81,7 @@ void drop_repeated(Notices& notices, std::size_t known)
   notices.erase(std::remove_if(first_new, notices.end(), repeated), notices.end());
 }
 
-/// Whether there are seek points, and all are starts of gzip members or Zstandard frames.
+/// Returns true if there are seek points, and all are starts of gzip members or Zstandard frames.
 bool has_free_points(const FileIndex& index)
 {
   const std::vector<SeekPoints::Point>& points = index.points->points;

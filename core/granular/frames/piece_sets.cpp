@@ -88,7 +88,7 @@ std::vector<GroupFrame> list_frames(const std::vector<FileIndex>& files, const S
   return last;
 }
 
-/// Whether files begin a run together: only one of them has frames so far, and all are there.
+/// Returns true if files begin a run together: only one of them has frames so far, and all are there.
 bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
 {
   constexpr std::size_t least = 3; // two may be a series as well
@@ -102,7 +102,7 @@ bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
       group, [&](const auto& entry) { return files[entry.second].error != nullptr; });
 }
 
-/// Whether files list the same frames as far as they go.
+/// Returns true if files list the same frames as far as they go.
 bool only_lag(const std::vector<FileIndex>& files, const std::map<NameNumber, std::uint32_t>& group)
 {
   const std::vector<FrameEntry>* longest = nullptr;
@@ -121,7 +121,7 @@ bool only_lag(const std::vector<FileIndex>& files, const std::map<NameNumber, st
     });
 }
 
-/// Whether the files of the groups hold pieces of the same frames, rather than frames of a series or
+/// Returns true if the files of the groups hold pieces of the same frames, rather than frames of a series or
 /// of a run that was restarted: the first frame is shared, and most are, or all that a file has.
 bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
   const std::vector<GroupFrame>& frames)
@@ -181,7 +181,7 @@ bool is_seen(const FileIndex& file, const FrameEntry& entry, std::set<std::int64
   return again;
 }
 
-/// Whether several files have the same particle in the first frame in which they have any: a run that
+/// Returns true if several files have the same particle in the first frame in which they have any: a run that
 /// was done again, under the same name with another number, looks like pieces but for that.
 bool share_particles(const std::vector<FileIndex>& files, const std::vector<GroupFrame>& frames)
 {

@@ -17,7 +17,7 @@ namespace granular
 {
 namespace
 {
-/// Whether a text begins with a row of numbers; so does one that is empty, of a process without rows.
+/// Returns true if a text begins with a row of numbers; so does one that is empty, of a process without rows.
 bool is_bare(std::string_view first_bytes)
 {
   const std::size_t first = first_bytes.find_first_not_of(" \t\r\n");
@@ -32,7 +32,7 @@ bool is_bare(std::string_view first_bytes)
     });
 }
 
-/// Whether a frame is a file of rows, without the header that the first process has.
+/// Returns true if a frame is a file of rows, without the header that the first process has.
 bool is_headless(const FrameEntry& entry)
 {
   return entry.kind->layout == FrameKind::bare && entry.offset == 0;
@@ -173,7 +173,7 @@ void leave_out(FileIndex& file)
   file.points.reset();
 }
 
-/// What is said of rows alone that belong to no header, or whose header has other columns.
+/// Returns the notice about rows alone that belong to no header, or whose header has other columns.
 std::string why_left_out(std::size_t columns, std::size_t wanted)
 {
   if (wanted > 0)
@@ -187,7 +187,7 @@ std::string why_left_out(std::size_t columns, std::size_t wanted)
          "and * gives each timestep its own files";
 }
 
-/// Whether the file of the next process, which would have 1 where this has 0 in its name, lies beside it, and has rows without a
+/// Returns true if the file of the next process, which would have 1 where this has 0 in its name, lies beside it, and has rows without a
 /// header.
 bool has_bare_sibling(const std::string& path)
 {

@@ -60,7 +60,7 @@ std::span<const Value> values_of(const DumpArray* array, std::size_t components 
     : std::span<const Value>();
 }
 
-/// Whether no digit of a number is lost where it is printed with six.
+/// Returns true if no digit of a number is lost where it is printed with six.
 bool has_six_digits(std::int64_t id) noexcept
 {
   std::uint64_t left = id < 0 ? 0 - static_cast<std::uint64_t>(id) : static_cast<std::uint64_t>(id);
@@ -80,7 +80,7 @@ bool is_large(std::int64_t id) noexcept
   return id >= least_rounded || id <= -least_rounded;
 }
 
-/// How many words of an array of texts have an exponent.
+/// Returns the number of words of an array of texts that have an exponent.
 std::int64_t count_exponents(const DumpArray& array)
 {
   std::vector<char> has(array.words.size());
@@ -92,7 +92,7 @@ std::int64_t count_exponents(const DumpArray& array)
     words, [&](std::int32_t word) { return has[static_cast<std::size_t>(word)] != 0; });
 }
 
-/// How many ids of a part were printed with an exponent. Only where all that have more than six digits end in zeros
+/// Returns the number of ids of a part that were printed with an exponent. Only where all that have more than six digits end in zeros
 /// is the text looked at again.
 std::int64_t count_rounded(const std::vector<FramePiece>& pieces, const DumpRequest& request,
   DumpFrame& frame, bool together, Progress& progress)
@@ -198,7 +198,7 @@ void drop_unwanted(const LocalRequest& request, DumpFrame& frame)
     frame.arrays, [&](const DumpArray& array) { return !is_wanted(wanted, array.info); });
 }
 
-/// What is to be said of rows, of a rank or of all.
+/// Remarks about rows, of a rank or of all.
 struct Remarks
 {
   std::int64_t rows = 0;

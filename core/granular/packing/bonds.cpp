@@ -56,7 +56,7 @@ Vector3 exact_vector(
   return vector;
 }
 
-/// Of images that are equally near the one that was moved the least.
+/// Returns true if a comes first: of images that are equally near, the one that was moved the least.
 bool comes_before(const Candidate& a, const Candidate& b)
 {
   const auto moves = [](const PeriodicImage& image)

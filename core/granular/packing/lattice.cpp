@@ -33,7 +33,7 @@ const LatticeCell& cell_of(LatticeKind kind)
 /// rounded.
 constexpr double tolerance = 32 * std::numeric_limits<double>::epsilon();
 
-/// How many cells of a length fit into a height; limited, so that the numbers of three axes multiply.
+/// Returns the number of cells of a length that fit into a height; limited, so that the numbers of three axes multiply.
 std::int64_t count_cells(
   const LatticeCell& cell, double height, bool periodic, double length, double radius)
 {

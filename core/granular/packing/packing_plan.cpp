@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::int64_t most_grains = 1'000'000'000'000;
 
-/// Of equal spheres the densest packing there is has 0.74; what chance can do shows when it is tried.
+/// The densest packing of equal spheres has 0.74; what chance can do shows when it is tried.
 constexpr double most_solid = 0.74;
 
 /// Radii that coordinates can still tell apart, in units of what these lose by rounding.
@@ -165,7 +165,7 @@ void check_room(const BoxShape& box, const RadiusChoice& radii, bool random)
   }
 }
 
-/// How many random grains there are.
+/// Returns the number of random particles.
 std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
 {
   const double mean = request.radii.mean_volume();
@@ -183,7 +183,7 @@ std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
   return static_cast<std::int64_t>(count);
 }
 
-/// How many grains there are on a lattice.
+/// Returns the number of particles on a lattice.
 std::int64_t lattice_count(const PackingRequest& request, const Lattice& lattice)
 {
   const std::int64_t room = std::min(lattice.capacity(), most_grains);

@@ -18,7 +18,7 @@ struct PlacedParticle
   std::int32_t type;
 };
 
-/// How many of each box vector a periodic image is away.
+/// Number of each box vector that a periodic image is away.
 using PeriodicImage = std::array<std::int8_t, 3>;
 
 /// Returns the image in which a cell is that lies beyond the cells from 0 to count - 1.

@@ -23,7 +23,7 @@ bool is_whole(double number) noexcept
     " of the bond/gran part of a record, got " + got);
 }
 
-/// How many history values each of some bonds has, of which the number may stand first behind them; 0: it does not. There
+/// Returns the number of history values that each of some bonds has, of which the number may stand first behind them; 0: it does not. There
 /// it is a whole number that fits the values behind it.
 std::int64_t find_history(std::span<const double> behind, std::int64_t bonds, bool may_have_more,
   std::int64_t history_values)

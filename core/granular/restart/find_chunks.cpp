@@ -25,7 +25,7 @@ SearchBudget budget_of(std::int64_t bytes, std::int64_t processes)
     2 * bytes + (std::int64_t{ 1 } << 28) };
 }
 
-/// Whether there may be a count and the length of a record that fits into so many doubles.
+/// Returns true if there may be a count and the length of a record that fits into so many doubles.
 constexpr auto is_pair = [](const char* bytes, bool swapped, std::int64_t left) noexcept
 {
   const std::int64_t count = load_number<std::int32_t>(bytes, swapped);
@@ -201,7 +201,7 @@ private:
     return doubles > (size_ - at - count_bytes) / 8 ? -1 : doubles;
   }
 
-  /// Whether there are only chunks without records.
+  /// Returns true if there are only chunks without records.
   bool zeros(std::int64_t first, std::int64_t end)
   {
     while (first < end && !budget_.spent() && this->doubles_at(first) == 0)

@@ -108,7 +108,7 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
   }
 }
 
-/// Where ids tell which rows stay, others may have been passed over.
+/// Decodes rows: where ids tell which stay, others may have been passed over.
 RowCounts ChunkDecoder::decode_batch(RowReader& reader, std::int64_t wanted)
 {
   if (choice_.passes)
@@ -238,7 +238,7 @@ void ChunkDecoder::choose_rows(std::size_t count, std::int64_t number)
   }
 }
 
-/// Whether the id of a row passes: integers by the choice, doubles if they are whole. Without ids rows count, and no id passes.
+/// Chooses rows by their ids: integers by the choice, doubles if they are whole. Without ids rows count, and no id passes.
 void ChunkDecoder::choose_by_id(std::size_t count, std::int64_t number)
 {
   const auto id = layout_.wires.find(layout_.id_column);

@@ -22,7 +22,7 @@ namespace granular
 {
 namespace
 {
-/// What a rank has to say of its rows.
+/// Remarks of a rank about its rows.
 struct Remarks
 {
   Misfits misfits;
@@ -52,7 +52,7 @@ std::string text_of(const Misfit& misfit)
     quoted(misfit.word);
 }
 
-/// Whether a column must be what it is taken for. Ids of a text must be integers: those of a binary file
+/// Returns true if a column must be what it is taken for. Ids of a text must be integers: those of a binary file
 /// are where the user says that they are. Columns that the request knows hold numbers, and columns that nobody named
 /// must be what they are taken for, too. The same on all ranks.
 bool must_fit(const Misfit& misfit, const FrameKind& kind, const ColumnSchema& schema)

@@ -57,7 +57,7 @@ void FrameDecoder::go_to(Worker& worker, std::size_t piece)
   }
 }
 
-/// How many rows to make room for at first.
+/// Returns the number of rows to make room for at first.
 std::int64_t FrameDecoder::first_room()
 {
   constexpr std::int64_t few = std::int64_t{ 1 } << 24; // values
@@ -192,7 +192,7 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
   return true;
 }
 
-/// Where what becomes of a chunk is noted. There is room for those alone that were begun: how many there are may be no more than a
+/// Returns the place for the result of a chunk. There is room for those alone that were begun: how many there are may be no more than a
 /// claim.
 DecodedChunk& FrameDecoder::result_of(std::size_t chunk)
 {

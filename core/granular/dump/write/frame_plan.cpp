@@ -35,7 +35,7 @@ namespace
 using Kind = ColumnSource::Kind;
 using namespace std::string_literals;
 
-/// What each rank tells the others first.
+/// Facts that each rank tells the others first.
 struct Survey
 {
   std::int64_t kept = 0;
@@ -45,7 +45,7 @@ struct Survey
   double radius = HUGE_VAL; ///< the smallest, where numbers may lose digits
 };
 
-/// What the rank that leads tells the others: the header, and the columns without their values.
+/// Facts that the leading rank tells the others: the header, and the columns without their values.
 struct Lead
 {
   FrameHeader header;
@@ -139,7 +139,7 @@ ColumnPlan plan_names(const std::vector<std::string>& names, const FrameView& fr
                           : plan_columns(names, frame, format.binary, notices);
 }
 
-/// How real numbers are printed, column by column.
+/// Chooses the format of real numbers, column by column.
 void choose_numbers(const FrameView& frame, NumberFormat numbers, ColumnPlan& plan)
 {
   for (ColumnSource& column : plan.columns)
@@ -181,7 +181,7 @@ bool is_scaled(const ColumnSource& column) noexcept
   return column.kind == Kind::Coordinate && is_scaled(column.role);
 }
 
-/// What stands in a line of the header of its own must not look like another section of it.
+/// Checks a text that stands in a line of the header of its own: it must not look like another section of it.
 void check_line(const std::string& text, const char* what)
 {
   if (text.find_first_of("\n\r") != text.npos)
@@ -190,7 +190,7 @@ void check_line(const std::string& text, const char* what)
   }
 }
 
-/// Whether the frame has what the format asks for.
+/// Checks that the frame has what the format asks for.
 void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
 {
   const Box& box = lead.header.box;

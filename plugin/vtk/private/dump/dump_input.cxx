@@ -59,7 +59,7 @@ std::string FindText(vtkFieldData* data, const char* name)
 }
 
 /**
- * Whether a box has these numbers, once they are rounded.
+ * Returns true if a box has these numbers, once they are rounded.
  */
 bool Matches(
   const granular::Box& box, const std::vector<double>& origin, const std::vector<double>& vectors)
