@@ -177,7 +177,9 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
 
 LockedFile::~LockedFile()
 {
-  if (this->is_own() && this->has_name())
+  // where the system does not tell, the name is that of this file, as it was a moment ago
+  const bool has_name = file_ >= 0 ? compare_name(name_, file_) != ESTALE : this->has_name();
+  if (this->is_own() && has_name)
   {
     ::unlink(name_.c_str());
   }
