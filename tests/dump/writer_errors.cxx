@@ -108,7 +108,7 @@ TEST(WriterErrors, PropertiesThatMakeNoSense)
   writer->SetInputData(MakeGrains(2));
   const auto expect = [&](const std::string& text)
   { writer.ExpectError(vtkErrorCode::UnknownError, text); };
-  for (const char* format : { "", "%d", "%.18g", "%.0g", "%g %g", "hello" })
+  for (const char* format : { "%d", "%.18g", "%.0g", "%g %g", "hello" })
   {
     writer->SetNumberFormat(format);
     expect(
