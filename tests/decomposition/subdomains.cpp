@@ -2,17 +2,13 @@
 #include "granular/decomposition/subdomains.h"
 
 #include "../support/quad.h"
-#include "../support/thread_ranks.h"
-#include "gathered_bounds.h"
 #include "made_subdomains.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
-#include <mutex>
 #include <random>
-#include <string>
 
 using namespace granular;
 
@@ -20,63 +16,6 @@ namespace
 {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::string error_of(const GatheredBounds& bounds)
-{
-  try
-  {
-    decomposition_of(bounds);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
-}
-}
-
-TEST(GatherBounds, one_process)
-{
-  SerialCommunicator alone;
-  check_gathered(alone);
-}
-
-TEST(GatherBounds, ranks)
-{
-  for (const int size : { 2, 3, 7 })
-  {
-    run_ranks(size, [](Communicator& ranks) { check_gathered(ranks); });
-  }
-}
-
-TEST(DecompositionOf, subdomains)
-{
-  const Decomposition made = decomposition_of(
-    { { 0, 1, 1, 3 }, { -1, 1, -2, 2 }, { 5, 6, 7, 8 }, { 12, 1'000'000'000'000 } });
-  EXPECT_TRUE(made.has_particles);
-  EXPECT_TRUE(made.has_ranks);
-  ASSERT_EQ(made.subdomains.size(), 2);
-  EXPECT_EQ(made.subdomains[0], made_subdomain({ 0, -1, 5 }, { 1, 1, 6 }, 12, 0));
-  EXPECT_EQ(made.subdomains[1], made_subdomain({ 1, -2, 7 }, { 3, 2, 8 }, 1'000'000'000'000, 1));
-  EXPECT_TRUE(decomposition_of({}).subdomains.empty());
-}
-
-TEST(DecompositionOf, sizes)
-{
-  const GatheredBounds right = { { 0, 1 }, { 0, 1 }, { 0, 1 }, { 3 } };
-  EXPECT_EQ(error_of(right), "");
-  GatheredBounds wrong = right;
-  wrong.x_data.pop_back();
-  EXPECT_EQ(error_of(wrong), "expected 2 values in x_data, got 1");
-  wrong = right;
-  wrong.y_data.push_back(0);
-  EXPECT_EQ(error_of(wrong), "expected 2 values in y_data, got 3");
-  wrong = right;
-  wrong.z_data.clear();
-  EXPECT_EQ(error_of(wrong), "expected 2 values in z_data, got 0");
-  wrong = right;
-  wrong.particles.push_back(1);
-  EXPECT_EQ(error_of(wrong), "expected 4 values in x_data, got 2");
 }
 
 TEST(BoundsOf, smallest_box)

@@ -4,7 +4,6 @@
 #include "../support/dumps.h"
 #include "../support/reference_dump.h"
 
-#include "granular/dump/write/atom_rows.h"
 #include "granular/dump/write/row_buffer.h"
 
 #include <gtest/gtest.h>
@@ -165,60 +164,6 @@ TEST(WriteForms, bounding_box_of_a_tilted_box)
     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
     "-2 13 -3\n2 14 2\n3 8 4\nITEM: ATOMS id type xs ys zs\n"
     "1 1 0 0 0\n2 1 1 1 1\n3 2 0.5 0.5 0.5\n");
-}
-
-TEST(WriteForms, packed_rows)
-{
-  for (const Form& form : all_forms())
-  {
-    for (const ReferenceBox& box : boxes(form.tilted))
-    {
-      if (!form.binary)
-      {
-        continue;
-      }
-      constexpr std::int64_t count = 2500;
-      const MadeRows rows(count, box_of(box));
-      const int size = form.atom.image ? 8 : 5;
-      ASSERT_EQ(atom_row_values(form.atom), size);
-      const std::string reference = reference_dump(
-        box, atoms_of(rows, true), { form.atom.scaled, form.atom.image, true, false }, 0);
-      constexpr std::int64_t first = 17;
-      std::vector<double> packed(static_cast<std::size_t>((count - first) * size + 1), -7);
-      pack_atom_rows(rows.atoms(true), rows.box, form.atom, first, count - first, packed);
-      const std::size_t bytes = sizeof(double) * (packed.size() - 1);
-      EXPECT_EQ(std::memcmp(packed.data(), reference.data() + reference.size() - bytes, bytes), 0)
-        << form.name();
-      EXPECT_EQ(packed.back(), -7) << "nothing is written behind the rows";
-      pack_atom_rows(rows.atoms(true), rows.box, form.atom, 5, 0, {});
-    }
-  }
-}
-
-TEST(WriteForms, packed_rows_that_cannot_be)
-{
-  const Box flat = Box::from_bounds({ 0, 0, 1 }, { 1, 1, 1 });
-  const MadeRows rows(3, flat);
-  std::vector<double> packed(24);
-  EXPECT_EQ(error_of(
-              [&] {
-                pack_atom_rows(rows.atoms(false), flat, { true, false }, 0, 3, packed);
-              }),
-    "expected a box with a length along z to scale coordinates by, got one of length 0");
-  EXPECT_EQ(error_of(
-              [&] {
-                pack_atom_rows(rows.atoms(false), flat, { false, true }, 0, 3, packed);
-              }),
-    "");
-  const std::vector<std::int64_t> big = { 1, (std::int64_t{ 1 } << 53) + 1, 3 };
-  AtomRows atoms = rows.atoms(false);
-  atoms.ids = big.data();
-  EXPECT_EQ(error_of(
-              [&] {
-                pack_atom_rows(atoms, flat, { false, false }, 0, 3, packed);
-              }),
-    "column 'id': expected integers that a double can hold, as all up to 2^53, for a binary dump, "
-    "got 9007199254740993");
 }
 
 /// The buffer of dump atom grows in steps of 2^20.

@@ -6,76 +6,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 namespace granular
 {
-namespace
-{
-void expect_size(const char* name, std::size_t got, std::size_t expected)
-{
-  if (got != expected)
-  {
-    throw Error("expected " + std::to_string(expected) + " values in " + name + ", got " +
-      std::to_string(got));
-  }
-}
-}
-
 template <class Archive>
 static void pass(Archive& archive, typename Archive::template Passed<Decomposition>& decomposition)
 {
   archive.number(decomposition.has_particles);
   archive.number(decomposition.has_ranks);
   pass(archive, decomposition.subdomains);
-}
-
-GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks)
-{
-  return do_together(ranks,
-    [&]
-    {
-      const auto processes = static_cast<std::size_t>(ranks.size());
-      const bool is_first = ranks.rank() == 0;
-      std::vector<std::int64_t> to_first(processes);
-      to_first[0] = sizeof(Subdomain);
-      const std::vector<std::int64_t> from_each(processes, is_first ? sizeof(Subdomain) : 0);
-      std::vector<Subdomain> all(is_first ? processes : 0);
-      ranks.exchange(reinterpret_cast<const char*>(&own), to_first,
-        reinterpret_cast<char*>(all.data()), from_each);
-      GatheredBounds bounds;
-      for (const Subdomain& each : all)
-      {
-        bounds.x_data.insert(bounds.x_data.end(), { each.lo[0], each.hi[0] });
-        bounds.y_data.insert(bounds.y_data.end(), { each.lo[1], each.hi[1] });
-        bounds.z_data.insert(bounds.z_data.end(), { each.lo[2], each.hi[2] });
-        bounds.particles.push_back(each.particles);
-      }
-      return bounds;
-    });
-}
-
-Decomposition decomposition_of(const GatheredBounds& bounds)
-{
-  const std::size_t processes = bounds.particles.size();
-  expect_size("x_data", bounds.x_data.size(), 2 * processes);
-  expect_size("y_data", bounds.y_data.size(), 2 * processes);
-  expect_size("z_data", bounds.z_data.size(), 2 * processes);
-  if (processes > std::numeric_limits<int>::max())
-  {
-    throw LimitError("expected less than 2^31 processes, got " + std::to_string(processes));
-  }
-  Decomposition decomposition;
-  decomposition.subdomains.resize(processes);
-  for (std::size_t p = 0; p < processes; ++p)
-  {
-    Subdomain& subdomain = decomposition.subdomains[p];
-    subdomain.lo = { bounds.x_data[2 * p], bounds.y_data[2 * p], bounds.z_data[2 * p] };
-    subdomain.hi = { bounds.x_data[2 * p + 1], bounds.y_data[2 * p + 1], bounds.z_data[2 * p + 1] };
-    subdomain.particles = bounds.particles[p];
-    subdomain.rank = static_cast<int>(p);
-  }
-  return decomposition;
 }
 
 Decomposition join(std::span<const Decomposition> parts)

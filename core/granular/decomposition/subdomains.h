@@ -33,22 +33,6 @@ struct Decomposition
   bool has_ranks = true;     ///< false: the ranks are unknown, and counted
 };
 
-/// The bounds of all ranks as collected by dump decomposition/vtk: of rank p of P, s = (x_min, x_max) lies in x_data[2p] and
-/// x_data[2p + 1], t in y_data, u in z_data, its number of particles in particles[p].
-struct GatheredBounds
-{
-  std::vector<double> x_data; ///< 2P
-  std::vector<double> y_data;
-  std::vector<double> z_data;
-  std::vector<std::int64_t> particles; ///< P
-};
-
-/// Gives rank 0 the bounds and counts of all ranks, in rank order; others get nothing. own.rank is ignored. Collective.
-GatheredBounds gather_bounds(const Subdomain& own, Communicator& ranks);
-
-/// Returns the subdomains with these bounds, p = 0 .. P - 1. Throws Error if an array has a wrong size.
-Decomposition decomposition_of(const GatheredBounds& bounds);
-
 /// Joins parts of one decomposition, in order. Counts or ranks that a part with subdomains lacks are unknown: then all counts
 /// are 0, or ranks are counted.
 Decomposition join(std::span<const Decomposition> parts);

@@ -10,6 +10,7 @@ namespace granular
 {
 namespace
 {
+// Source: pack_restart of the atom styles of LIGGGHTS-PUBLIC 3.8.0 and its forks; files of 3.8.0.
 // Behind the last list of ellipsoid, line and tri, which has one entry at most, comes their shape.
 constexpr StyleLayout table[] = {
   // clang-format off
@@ -33,11 +34,6 @@ constexpr StyleLayout table[] = {
                               "blockiness1 blockiness2 inertiax inertiay inertiaz volume area angmomx angmomy angmomz", 34 },
   // clang-format on
 };
-}
-
-std::span<const StyleLayout> style_layouts() noexcept
-{
-  return table;
 }
 
 const StyleLayout* find_style(std::string_view name) noexcept

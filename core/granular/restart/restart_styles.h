@@ -29,9 +29,6 @@ struct StyleLayout
   bool has_lists() const noexcept { return lists[0] > 0; }
 };
 
-/// The table of atom styles. Source: pack_restart of the atom styles of LIGGGHTS-PUBLIC 3.8.0 and its forks; files of 3.8.0.
-std::span<const StyleLayout> style_layouts() noexcept;
-
 /// Returns a style, or null.
 const StyleLayout* find_style(std::string_view name) noexcept;
 

@@ -2,11 +2,9 @@
 #ifndef granular_dump_write_atom_rows_h
 #define granular_dump_write_atom_rows_h
 
-#include "granular/geometry/box.h"
 #include "granular/particles/frame_view.h"
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,9 +16,6 @@ struct AtomForm
   bool scaled = true; ///< xs ys zs; false: x y z
   bool image = false; ///< also ix iy iz
 };
-
-/// Returns the values per row: 5, or 8 with the image counts.
-int atom_row_values(const AtomForm& form) noexcept;
 
 /// Returns "id type xs ys zs", "id type x y z ix iy iz", ...
 std::vector<std::string> atom_columns(const AtomForm& form);
@@ -37,12 +32,5 @@ struct AtomRows
 
 /// Returns the frame of these atoms.
 FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header);
-
-/// Packs rows [first, first + count) like dump atom, atom_row_values doubles each: id, type, c, image. c is x, or lambda with
-/// x = x_lo + H lambda, by back substitution, where the columns of H are the box vectors (Lx, 0, 0), (xy, Ly, 0), (xz, yz,
-/// Lz). Each lambda is the exact value rounded, as in convert_positions. Throws Error for scaled coordinates in a box without
-/// volume, and LimitError for ids that are not doubles, missing rows, and too little room.
-void pack_atom_rows(const AtomRows& atoms, const Box& box, const AtomForm& form, std::int64_t first,
-  std::int64_t count, std::span<double> to);
 }
 #endif
