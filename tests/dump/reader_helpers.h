@@ -205,4 +205,25 @@ inline std::string Frame(
   return out.str();
 }
 
+/// Asks an algorithm to stop at its n-th report of progress, or at every one, and keeps the reports.
+class Stopper : public vtkCommand
+{
+public:
+  static Stopper* New() { return new Stopper; }
+
+  void Execute(vtkObject* caller, unsigned long, void* data) override
+  {
+    this->Reported.push_back(*static_cast<double*>(data));
+    if (this->At == Every || this->At == static_cast<int>(this->Reported.size()))
+    {
+      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+    }
+  }
+
+  static constexpr int Never = 0;
+  static constexpr int Every = -1;
+  int At = Never;
+  std::vector<double> Reported;
+};
+
 #endif

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces one after the other in one process, any number of threads, and frames in any order: the particles
-// are always the same.
+// Pieces one after the other in one process, and files that change.
 #include "reader_helpers.h"
 
 #include "vtkCellArray.h"
 #include "vtkErrorCode.h"
-
-#include <algorithm>
-#include <random>
 
 namespace
 {
@@ -63,23 +59,6 @@ std::vector<Source> Sources()
       1000 } };
 }
 
-/// Asks an algorithm to stop at its n-th report.
-class StopAt : public vtkCommand
-{
-public:
-  static StopAt* New() { return new StopAt; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
-  {
-    if (--this->Left == 0)
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  }
-
-  int Left = 0;
-};
-
 /// A run of frames of different sizes, with ids that tell the frame.
 std::string RunOf(const std::vector<int>& sizes)
 {
@@ -95,8 +74,6 @@ std::string RunOf(const std::vector<int>& sizes)
   }
   return text;
 }
-
-const std::vector<int> Sizes = { 10, 20000, 0, 5000, 1, 30000, 77 };
 }
 
 TEST(ReaderPieces, TogetherAreTheWhole)
@@ -130,116 +107,6 @@ TEST(ReaderPieces, TogetherAreTheWhole)
       EXPECT_TRUE(reader.Said->Errors.empty());
     }
   }
-}
-
-TEST(ReaderPieces, OfSomeOfTheRows)
-{
-  const auto select = [](Reader& reader)
-  {
-    reader->SetStride(3);
-    reader->SetRegionOfInterest(-1, 1, -1, 1, 0, 0.05);
-  };
-  Reader whole({ Good("grains.dump") });
-  select(whole);
-  whole->UpdateTimeStep(2000);
-  const std::vector<std::string> expected = RowsOf(whole.Particles());
-  ASSERT_TRUE(10 < expected.size() && expected.size() <= 400) << expected.size();
-  Reader reader({ Good("grains.dump") });
-  select(reader);
-  std::vector<std::string> rows;
-  for (int piece = 0; piece < 4; ++piece)
-  {
-    reader->UpdateTimeStep(2000, piece, 4);
-    const std::vector<std::string> part = RowsOf(reader.Particles());
-    rows.insert(rows.end(), part.begin(), part.end());
-  }
-  EXPECT_EQ(rows, expected);
-}
-
-TEST(ReaderPieces, ThreadsChangeNothing)
-{
-  for (const Source& source : Sources())
-  {
-    Reader one(source.Files);
-    one->SetThreads(1);
-    one->UpdateTimeStep(source.Time);
-    const std::vector<std::string> expected = RowsOf(one.Particles());
-    for (const int threads : { 2, 3, 4, 0 })
-    {
-      Reader reader(source.Files);
-      reader->SetThreads(threads);
-      reader->UpdateTimeStep(source.Time);
-      EXPECT_EQ(RowsOf(reader.Particles()), expected) << source.Files[0] << " " << threads;
-      EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
-    }
-  }
-}
-
-TEST(ReaderFrames, AnyWayThroughTheFrames)
-{
-  const std::string file = WriteFile("run.dump", RunOf(Sizes));
-  std::vector<std::vector<std::string>> expected;
-  for (std::size_t frame = 0; frame < Sizes.size(); ++frame)
-  {
-    Reader plain({ file });
-    plain->UpdateTimeStep(static_cast<double>(frame));
-    expected.push_back(RowsOf(plain.Particles()));
-    ASSERT_EQ(expected.back().size(), static_cast<std::size_t>(Sizes[frame]));
-  }
-  std::vector<int> way = { 0, 1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, 0, 0, 3, 4, 6, 2, 1, 1 };
-  std::mt19937 random(5);
-  for (int i = 0; i < 30; ++i)
-  {
-    way.push_back(static_cast<int>(random() % Sizes.size()));
-  }
-  for (const int threads : { 1, 3 })
-  {
-    Reader reader({ file });
-    reader->SetThreads(threads);
-    for (const int frame : way)
-    {
-      reader->UpdateTimeStep(frame);
-      ASSERT_EQ(RowsOf(reader.Particles()), expected[frame]) << frame;
-      EXPECT_EQ(reader.Field("timestep")->GetTuple1(0), frame);
-    }
-    EXPECT_TRUE(reader.Said->Errors.empty());
-  }
-}
-
-TEST(ReaderFrames, WhatIsAskedForChanges)
-{
-  const std::string file = WriteFile("run.dump", RunOf(Sizes));
-  const auto read = [&](Reader& reader, int frame)
-  {
-    reader->UpdateTimeStep(frame, 0, 1);
-    Reader plain({ file });
-    plain->SetSortById(reader->GetSortById());
-    plain->SetStride(reader->GetStride());
-    plain->SetPointOrigin(reader->GetPointOrigin());
-    plain->UpdateInformation();
-    if (!reader->GetPointDataArraySelection()->ArrayIsEnabled("radius"))
-    {
-      plain->GetPointDataArraySelection()->DisableArray("radius");
-    }
-    plain->UpdateTimeStep(frame);
-    EXPECT_EQ(RowsOf(reader.Particles()), RowsOf(plain.Particles())) << frame;
-  };
-  Reader reader({ file });
-  read(reader, 0);
-  reader->SortByIdOn();
-  read(reader, 1);
-  reader->GetPointDataArraySelection()->DisableArray("radius");
-  read(reader, 2);
-  reader->SetPointOrigin(1, 2, 3);
-  read(reader, 3);
-  reader->SetStride(2);
-  read(reader, 4);
-  read(reader, 5);
-  read(reader, 4);
-  read(reader, 3);
-  reader->UpdateTimeStep(2, 1, 3);
-  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
-  read(reader, 1);
 }
 
 TEST(ReaderFrames, FilesChange)

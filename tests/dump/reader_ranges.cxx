@@ -154,18 +154,6 @@ void GatherRanges(vtkPolyData* particles)
 const std::string Columns = "id type x y z ix iy iz radius c_a[1] c_a[2] element";
 }
 
-TEST(ReaderRanges, OfRealFiles)
-{
-  for (const std::string name :
-    { "grains_1000.dump", "ortho_image.dump", "tri_scaled.dump", "ortho_scaled.bin" })
-  {
-    SCOPED_TRACE(name);
-    Reader reader({ Good(name) });
-    reader->Update();
-    ExpectRanges(reader);
-  }
-}
-
 TEST(ReaderRanges, WhateverIsRead)
 {
   const std::string file = WriteFile("many.dump", Frame(Columns, ManyRows(20'001)));

@@ -8,8 +8,6 @@
 #include <functional>
 #include <thread>
 
-#include <sys/resource.h>
-
 namespace
 {
 constexpr int Few = 30000; ///< several reports of progress on each rank
@@ -30,24 +28,6 @@ int RowOf(int rank, int size)
 {
   return (2 * rank + 1) * Few / (2 * size);
 }
-
-/// Asks to stop at a report of progress; counts them.
-class Stopper : public vtkCommand
-{
-public:
-  static Stopper* New() { return new Stopper; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
-  {
-    if (++this->Reports == this->At)
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  }
-
-  int At = 0;
-  int Reports = 0;
-};
 }
 
 TEST_F(ReaderRanks, AFileIsMissingOnOne)
@@ -69,54 +49,6 @@ TEST_F(ReaderRanks, AFileIsMissingOnOne)
   }
 }
 
-TEST_F(ReaderRanks, AFileIsReplacedOnOne)
-{
-  for (int rank = 0; rank < this->Size(); ++rank)
-  {
-    Write("run.dump", Text);
-    Reader reader({ "run.dump" });
-    reader->UpdateInformation();
-    if (this->Rank() == rank)
-    {
-      std::filesystem::remove("run.dump");
-      Write("run.dump", GrainsFrame(3, Few));
-    }
-    this->UpdateOwnPiece(reader);
-    this->ExpectError(
-      reader, vtkErrorCode::PrematureEndOfFileError, "run.dump: the file changed", rank);
-    Write("run.dump", Text);
-    reader->Refresh();
-    this->UpdateOwnPiece(reader);
-    this->ExpectWhole(reader, Few);
-  }
-}
-
-TEST_F(ReaderRanks, ARowIsDamagedOnOne)
-{
-  for (const bool sorted : { false, true })
-  {
-    for (int rank = 0; rank < this->Size(); ++rank)
-    {
-      const int row = RowOf(rank, this->Size());
-      Write("run.dump", Text);
-      if (this->Rank() == rank)
-      {
-        Write("run.dump", WithBadRow(Text, row));
-      }
-      Reader reader({ "run.dump" });
-      reader->SetSortById(sorted);
-      this->UpdateOwnPiece(reader);
-      this->ExpectError(reader, vtkErrorCode::FileFormatError,
-        "run.dump:" + std::to_string(row + 9) + ": column 'x': expected a number, got '0.zero!!'",
-        rank);
-      Write("run.dump", Text);
-      reader->Modified();
-      this->UpdateOwnPiece(reader);
-      this->ExpectWhole(reader, Few);
-    }
-  }
-}
-
 /// A column that holds a word where one rank reads holds words on all.
 TEST_F(ReaderRanks, AColumnIsOfOneTypeOnAll)
 {
@@ -129,34 +61,6 @@ TEST_F(ReaderRanks, AColumnIsOfOneTypeOnAll)
   this->ExpectSame(reader.Array("tag")->GetClassName());
   EXPECT_TRUE(reader.Array("tag")->IsA("vtkStringArray"));
   EXPECT_EQ(reader.Said->Warnings.size(), this->Rank() == 0 ? 1u : 0u);
-}
-
-TEST_F(ReaderRanks, MemoryRunsOutOnOne)
-{
-  constexpr int many = 600000;
-  Write("run.dump", GrainsFrame(0, many));
-  for (int rank = 0; rank < this->Size(); ++rank)
-  {
-    Reader reader({ "run.dump" });
-    reader->SetThreads(1);
-    reader->UpdateInformation();
-    rlimit before = {};
-    getrlimit(RLIMIT_AS, &before);
-    if (this->Rank() == rank)
-    {
-      long pages = 0;
-      std::ifstream("/proc/self/statm") >> pages;
-      rlimit less = before;
-      less.rlim_cur = static_cast<rlim_t>(pages) * 4096 + (rlim_t{ 3 } << 20);
-      setrlimit(RLIMIT_AS, &less);
-    }
-    this->UpdateOwnPiece(reader);
-    setrlimit(RLIMIT_AS, &before);
-    this->ExpectError(reader, vtkErrorCode::UnknownError, "out of memory", rank);
-    reader->Modified();
-    this->UpdateOwnPiece(reader);
-    this->ExpectWhole(reader, many);
-  }
 }
 
 TEST_F(ReaderRanks, OneIsCancelledAtAnyReport)
@@ -318,24 +222,6 @@ TEST_F(ReaderRanks, ALaterFrameIsWrongOnOne)
     this->ExpectWhole(reader, Few);
     this->UpdateOwnPiece(reader, 0);
     this->ExpectWhole(reader, Few);
-  }
-}
-
-TEST_F(ReaderRanks, FramesGoBy)
-{
-  Write(
-    "run.dump", GrainsFrame(0, 10) + GrainsFrame(1, 2000) + GrainsFrame(2, 1) + GrainsFrame(3, 7));
-  const std::vector<std::pair<int, int>> frames = { { 0, 10 }, { 1, 2000 }, { 2, 1 }, { 3, 7 },
-    { 2, 1 }, { 1, 2000 }, { 3, 7 }, { 0, 10 } };
-  for (const bool sorted : { false, true })
-  {
-    Reader reader({ "run.dump" });
-    reader->SetSortById(sorted);
-    for (const auto& [time, count] : frames)
-    {
-      this->UpdateOwnPiece(reader, time);
-      this->ExpectWhole(reader, count);
-    }
   }
 }
 

@@ -172,24 +172,6 @@ ITEM: ATOMS
   EXPECT_EQ(dump.read().points(), (std::vector<double>{ 6, 5, 5 }));
 }
 
-TEST(TextHeader, OldLammpsWithAnotherNumberOfWords)
-{
-  const Dump dump(R"(ITEM: TIMESTEP
-0
-ITEM: NUMBER OF ATOMS
-1
-ITEM: BOX BOUNDS
-0 1
-0 1
-0 1
-ITEM: ATOMS
-1 1 0.5 0.5 0.5 7
-)");
-  EXPECT_EQ(dump.frames(), 0u);
-  EXPECT_EQ(to_string(dump.index().defect.value()),
-    "memory:9: expected 5 or 8 words in a row of a dump that does not name its columns, got 6");
-}
-
 TEST(TextHeader, OldLammpsWithoutColumnsAndWithoutRows)
 {
   const Dump dump(

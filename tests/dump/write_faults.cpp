@@ -13,10 +13,6 @@
 #include <string>
 #include <vector>
 
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 namespace
 {
 using namespace granular;
@@ -349,50 +345,6 @@ TEST(WriteFaults, not_finished)
   }
 }
 
-/// After an error the communicator is as good as new.
-TEST(WriteFaults, another_try)
-{
-  ThreeRanks three;
-  const std::string word = three.made.words[25000];
-  const Folder folder;
-  for (const ParallelMode mode : modes)
-  {
-    three.made.words[25000] = "";
-    std::vector<std::string> errors(3);
-    run_ranks(3,
-      [&](Communicator& ranks)
-      {
-        const auto rank = static_cast<std::size_t>(ranks.rank());
-        for (int i = 0; i < 3; ++i)
-        {
-          Notices notices;
-          Progress progress;
-          errors[rank] += error_of(
-                            [&]
-                            {
-                              DumpWriter writer(folder.path("a"), {}, { mode, 1 }, ranks);
-                              writer.write(three.ranks()[rank][0], notices, progress);
-                              writer.finish();
-                            }) +
-            "\n";
-          do_together(ranks,
-            [&]
-            {
-              if (ranks.rank() == 0)
-              {
-                three.made.words[25000] = i == 1 ? "" : word;
-              }
-            });
-        }
-      });
-    const std::string error = "column 'element': expected a word, got '' (on rank 2 of 3)\n";
-    EXPECT_EQ(errors[0], error + "\n" + error);
-    EXPECT_EQ(errors[0], errors[1]);
-    EXPECT_EQ(errors[0], errors[2]);
-    EXPECT_EQ(names_in(folder.path("")), "a");
-  }
-}
-
 /// The first rank lacks memory for a message of another: it takes the rest all the same, and the next file is whole.
 TEST(WriteFaults, no_memory_for_a_message)
 {
@@ -430,63 +382,4 @@ TEST(WriteFaults, no_memory_for_a_message)
     EXPECT_EQ(errors[0], errors[2]);
     EXPECT_EQ(difference(bytes_of_file(folder.path("a")), whole), "");
   }
-}
-
-/// A process that is killed while it writes leaves the old file as it was; the next one removes what it left.
-TEST(WriteFaults, killed)
-{
-  const MadeRows rows(20000, small_box(false));
-  const Folder folder;
-  folder.write("old", old_content);
-  int said[2];
-  ASSERT_EQ(::pipe(said), 0);
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0)
-  {
-    class Tell final : public Progress
-    {
-    public:
-      explicit Tell(int to)
-        : to_(to)
-      {
-      }
-      bool report(double fraction) override
-      {
-        if (fraction > 0.4)
-        {
-          static_cast<void>(!::write(to_, "x", 1));
-          ::pause(); // in the middle of a frame
-        }
-        return true;
-      }
-
-    private:
-      int to_;
-    };
-    SerialCommunicator alone;
-    Notices notices;
-    Tell tell(said[1]);
-    Progress silent;
-    DumpWriter writer(folder.path("old"), {}, {}, alone);
-    writer.write(rows.view(), notices, silent);
-    FrameView next = rows.view();
-    ++next.header.timestep;
-    writer.write(next, notices, tell);
-    ::_exit(1);
-  }
-  char word = 0;
-  ASSERT_EQ(::read(said[0], &word, 1), 1);
-  ASSERT_EQ(::kill(child, SIGKILL), 0);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFSIGNALED(status));
-  ::close(said[0]);
-  ::close(said[1]);
-  EXPECT_EQ(bytes_of_file(folder.path("old")), old_content);
-  const std::string left = names_in(folder.path(""));
-  EXPECT_EQ(left.find(".granular-"), 0U) << left;
-  EXPECT_EQ(write_dump(folder.path("old"), Frames{ rows.view() }, {}).error, "");
-  EXPECT_NE(bytes_of_file(folder.path("old")), old_content);
-  EXPECT_EQ(names_in(folder.path("")), "old");
 }

@@ -135,19 +135,6 @@ TEST(WriteRanks, compressed)
   }
 }
 
-TEST(WriteRanks, compressed_binary)
-{
-  const MadeRows rows(4, small_box(false));
-  DumpFormat format;
-  format.binary = true;
-  format.compression = Compression::Gzip;
-  const Folder folder;
-  const Written written = write_dump(folder.path("a.bin"), cut({ rows.view() }, { 1, 1 }), format);
-  EXPECT_EQ(written.error,
-    folder.path("a.bin") + ": expected text to compress, got a binary dump: no program reads that");
-  EXPECT_EQ(names_in(folder.path("")), "");
-}
-
 /// A file a rank, each with its own number of atoms; together they are the frame.
 TEST(WriteRanks, file_of_each_rank)
 {

@@ -185,18 +185,6 @@ TEST(WriterArrays, WhatIsNoColumnIsLeftOutWithAWarning)
       "an array without a name is left out" }));
 }
 
-TEST(WriterArrays, IntegersFrom2To63AreAnError)
-{
-  auto data = MakeGrains(2);
-  AddArray<vtkUnsignedLongLongArray>(data, "n", { 1, 9223372036854775808ULL });
-  Writer writer(NewName("a.dump"));
-  writer->SetInputData(data);
-  writer->SetColumns("x n");
-  writer.ExpectError(vtkErrorCode::UnknownError,
-    "column 'n': expected integers below 2^63, got 9223372036854775808");
-  EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
-}
-
 TEST(WriterArrays, OfAnotherLengthThanThePointsAreAnError)
 {
   auto data = MakeGrains(3);
@@ -245,35 +233,6 @@ TEST(WriterArrays, NoPoints)
   vtkNew<vtkUnstructuredGrid> grid;
   writer->SetInputData(grid);
   EXPECT_EQ(writer.Rows(), Lines{});
-}
-
-TEST(WriterArrays, BoxesOf17DigitsComeBackExactly)
-{
-  struct
-  {
-    const char* flags;
-    const char* bounds;
-  } const boxes[] = {
-    { "",
-      "-1.0000000000000001e-01 3.3333333333333331e-01\n1.0000000000000000e+05 "
-      "1.0000000000000003e+05\n-7.0000000000000007e-02 1.1102230246251565e-16\n" },
-    { "xy xz yz ",
-      "-1.0000000000000001e-01 3.3333333333333331e-01 2.9999999999999999e-02\n"
-      "-1.2345678901234566e-01 1.0000000000000002e+00 -1.0999999999999999e-02\n"
-      "-7.0000000000000007e-02 1.7000000000000001e-01 3.0000000000000001e-03\n" },
-  };
-  for (const auto& box : boxes)
-  {
-    const std::string text = std::string("ITEM: TIMESTEP\n3\nITEM: NUMBER OF ATOMS\n1\n") +
-      "ITEM: BOX BOUNDS " + box.flags + "pp fs mm\n" + box.bounds +
-      "ITEM: ATOMS id type x y z\n1 2 0.1 0.2 0.15\n";
-    Reader reader({ WriteFile("in.dump", text) });
-    Writer writer(NewName("out.dump"));
-    writer->SetInputConnection(reader->GetOutputPort());
-    EXPECT_EQ(writer->Write(), 1);
-    EXPECT_EQ(Content(writer->GetFileName()), text);
-    EXPECT_EQ(writer.Said->Warnings, Lines{});
-  }
 }
 
 TEST(WriterArrays, ABoxOfTheWritersOwn)

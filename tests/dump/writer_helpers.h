@@ -131,23 +131,4 @@ vtkSmartPointer<Array> AddArray(
   return array;
 }
 
-/// Asks to stop at the n-th report of progress, and keeps the reports.
-class Stopper : public vtkCommand
-{
-public:
-  static Stopper* New() { return new Stopper; }
-
-  void Execute(vtkObject* caller, unsigned long, void* data) override
-  {
-    this->Reported.push_back(*static_cast<double*>(data));
-    if (static_cast<int>(this->Reported.size()) == this->At)
-    {
-      static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-    }
-  }
-
-  int At = 0;
-  std::vector<double> Reported;
-};
-
 #endif

@@ -174,32 +174,6 @@ TEST_F(WriterRanks, TheBytesAreThoseOfOne)
   }
 }
 
-TEST_F(WriterRanks, EachItsOwnFile)
-{
-  vtkNew<Source> source;
-  Writer writer("own_*_%.dump");
-  writer->SetInputConnection(source->GetOutputPort());
-  writer->WriteTimeStepsOn();
-  EXPECT_EQ(writer->Write(), 1);
-  this->Ranks.all_gather("");
-  for (const int step : { 0, 10, 20 })
-  {
-    std::size_t rows = 0;
-    for (int rank = 0; rank < this->Size(); ++rank)
-    {
-      const auto frames =
-        ReadPlain("own_" + std::to_string(step) + "_" + std::to_string(rank) + ".dump");
-      ASSERT_EQ(frames.size(), 1u);
-      EXPECT_EQ(frames[0].timestep, step);
-      for (std::size_t row = 0; row < frames[0].rows; ++row, ++rows)
-      {
-        ASSERT_EQ(frames[0].Number("id", row), static_cast<double>(1 + rows * 7919 % All));
-      }
-    }
-    EXPECT_EQ(rows, static_cast<std::size_t>(All));
-  }
-}
-
 TEST_F(WriterRanks, TheInputCannotBeMadeOnOne)
 {
   for (int rank = 0; rank < this->Size(); ++rank)
