@@ -138,20 +138,3 @@ def volume_of(kind, width):
     r = SUPPORT[kind] * width * (r + 1) / 2
     inside = kernel(kind, width, r**2)
     return (weights * 4 * numpy.pi * r**2 * inside).sum() * SUPPORT[kind] * width / 2
-
-
-def line_means(kind, width, seen, branch):
-    """The means of the kernel along lines; seen: places of the kernels from the starts."""
-    nodes, weights = numpy.polynomial.legendre.leggauss(40)
-    square = (branch**2).sum(axis=-1)
-    foot = (seen * branch).sum(axis=-1) / square
-    height = numpy.maximum((seen**2).sum(axis=-1) - foot**2 * square, 0)
-    half = numpy.sqrt(numpy.maximum((SUPPORT[kind] * width)**2 - height, 0) / square)
-    ends = [numpy.clip(end, 0, 1) for end in (foot - half, foot, foot + half)]
-    mean = 0
-    for first, last in zip(ends, ends[1:]):
-        s = first[..., None] + (last - first)[..., None] * (nodes + 1) / 2
-        r2 = numpy.minimum(height[..., None] + (s - foot[..., None])**2 * square[..., None],
-                           (SUPPORT[kind] * width)**2 * (1 - 1e-14))
-        mean = mean + (weights * kernel(kind, width, r2)).sum(axis=-1) * (last - first) / 2
-    return mean
