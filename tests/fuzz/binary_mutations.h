@@ -193,7 +193,7 @@ private:
   std::vector<Chunk> chunks_;
 };
 
-inline void mutate_binary(std::string& bytes, Random& random, std::size_t most)
+inline void mutate(std::string& bytes, Random& random, std::size_t most)
 {
   if (!one_in(random, 4))
   {

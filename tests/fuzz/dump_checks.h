@@ -6,9 +6,13 @@
 
 #include "../support/read_source.h"
 
+#include "granular/memory/block_pool.h"
+
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -74,11 +78,34 @@ inline std::string values_of(const DumpArray& array, std::int64_t rows)
   return text;
 }
 
+/// Memory that frames before have left: none of it may show in a frame, compared with one in fresh memory.
+inline const std::shared_ptr<BlockPool>& used_memory()
+{
+  static const auto pool = std::make_shared<BlockPool>(std::size_t{ 64 } << 20);
+  return pool;
+}
+
+/// The bytes of all arrays of some tables.
+inline std::string content_of(std::initializer_list<const DumpFrame*> tables)
+{
+  std::string all;
+  for (const DumpFrame* const rows : tables)
+  {
+    all.append(static_cast<const char*>(rows->points.data()), rows->points.bytes());
+    for (const DumpArray& array : rows->arrays)
+    {
+      all += array.info.name + values_of(array, rows->rows);
+    }
+  }
+  return all;
+}
+
 inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, DumpRequest request,
   int threads, std::size_t chunk_bytes)
 {
   request.threads = threads;
   request.chunk_bytes = chunk_bytes;
+  request.pool = threads > 1 ? used_memory() : nullptr;
   Reading reading;
   Notices notices;
   Progress progress;

@@ -90,12 +90,6 @@ void use(std::string_view bytes, std::string_view names)
 }
 }
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
-{
-  return fuzz::mutate_as(data, size, most, seed, fuzz::mutate_binary);
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

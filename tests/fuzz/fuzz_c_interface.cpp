@@ -136,8 +136,7 @@ public:
   {
     constexpr void (Session::*calls[])(const Call&) = { &Session::open, &Session::refresh,
       &Session::look, &Session::list, &Session::read, &Session::read_into, &Session::show,
-      &Session::write_frame, &Session::write_arrays, &Session::find, &Session::close,
-      &Session::give_nothing };
+      &Session::write_frame, &Session::write_arrays, &Session::find, &Session::close };
     (this->*calls[choice[0] % std::size(calls)])(choice);
   }
 
@@ -497,31 +496,8 @@ private:
     frame_ = nullptr;
   }
 
-  /// Null where something is needed.
-  void give_nothing(const Call&)
-  {
-    require(!ok(granular_open(nullptr, 1, nullptr, &none_)), "no paths");
-    require(!ok(granular_refresh(nullptr, nullptr, nullptr, nullptr)), "no run");
-    require(!ok(granular_run_info(run_, nullptr)), "no facts");
-    require(!ok(granular_frame_info(nullptr, 0, nullptr)), "no run");
-    require(!ok(granular_file_info(run_, 0, nullptr)), "no facts");
-    require(!ok(granular_find_frame(run_, 0, nullptr)), "no frame");
-    require(!ok(granular_arrays(nullptr, 0, 0, nullptr, 0, nullptr)), "no run");
-    require(!ok(granular_read(run_, 0, nullptr, nullptr)), "nowhere");
-    require(!ok(granular_header(nullptr, nullptr)), "no frame");
-    require(!ok(granular_array_at(nullptr, 0, nullptr)), "no frame");
-    require(!ok(granular_array_named(frame_, nullptr, nullptr)), "no name");
-    require(!ok(granular_create(nullptr, nullptr, nullptr)), "no path");
-    require(!ok(granular_write(nullptr, nullptr)), "no writer");
-    require(!ok(granular_write_frame(nullptr, frame_)), "no writer");
-    require(!ok(granular_finish(nullptr)), "no writer");
-    require(!ok(granular_find_files(nullptr, 1, nullptr)), "no patterns");
-    require(!ok(granular_complete_box(nullptr)), "no box");
-  }
-
   std::string_view file_;
   granular_run* run_ = nullptr;
-  granular_run* none_ = nullptr;
   granular_frame* frame_ = nullptr;
   granular_frame* other_ = nullptr;
   int left_ = 0; ///< steps before work is stopped
@@ -543,7 +519,9 @@ constexpr Call usual[] = {
   { 4, 1 },                                                // the last frame
 };
 
-void mutate(std::string& bytes, Random& random, std::size_t most)
+}
+
+void granular::fuzz::mutate(std::string& bytes, Random& random, std::size_t most)
 {
   const std::size_t end = bytes.rfind(separator);
   std::string file = bytes.substr(0, end);
@@ -575,13 +553,6 @@ void mutate(std::string& bytes, Random& random, std::size_t most)
     }
   }
   bytes = calls.empty() ? file : file.append(separator) + calls;
-}
-}
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
-{
-  return mutate_as(data, size, most, seed, mutate);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -33,6 +33,11 @@ void check(const FramePiece& file)
   require(whole.bonds.lines.count >= whole.bonds.table.rows, "a line for each bond");
   std::int64_t particles = 0;
   std::int64_t bonds = 0;
+  request.particles.pool = used_memory();
+  const DataFrame again = read(file, request);
+  require(content_of({ &again.particles, &again.bonds.table }) ==
+      content_of({ &whole.particles, &whole.bonds.table }),
+    "what was read depends on the memory");
   request.particles.pieces = 3;
   for (int& piece = request.particles.piece; piece < 3; ++piece)
   {

@@ -193,7 +193,9 @@ void mutate_values(std::string& content, Random& random, bool swapped)
   }
 }
 
-void mutate(std::string& bytes, Random& random, std::size_t most)
+}
+
+void fuzz::mutate(std::string& bytes, Random& random, std::size_t most)
 {
   const std::vector<Part> parts = find_encoded(bytes);
   if (parts.empty() || one_in(random, 3))
@@ -215,13 +217,6 @@ void mutate(std::string& bytes, Random& random, std::size_t most)
     ? pack_blocks(form, *content, random)
     : encode_base64(form.header({ content->size() }) + *content);
   bytes.replace(part.at, part.size, encoded);
-}
-}
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
-{
-  return mutate_as(data, size, most, seed, mutate);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -158,7 +158,9 @@ void check_records(const Setting& setting, std::span<const double> buffer)
   }
 }
 
-void mutate(std::string& bytes, Random& random, std::size_t most)
+}
+
+void fuzz::mutate(std::string& bytes, Random& random, std::size_t most)
 {
   if (bytes.size() < Setting::bytes || one_in(random, 4))
   {
@@ -210,13 +212,6 @@ void mutate(std::string& bytes, Random& random, std::size_t most)
   }
   bytes.resize(one_in(random, 3) ? Setting::bytes + 8 * doubles : Setting::bytes);
   bytes.append(reinterpret_cast<const char*>(packed.data()), 8 * packed.size());
-}
-}
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
-{
-  return mutate_as(data, size, most, seed, mutate);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A gzip file from memory, against zlib. The mutator changes the content and packs it again: other levels, strategies, blocks,
 // members and header fields.
-#include "mutations.h"
 #include "packed_checks.h"
 
 #include <zlib.h>
@@ -96,39 +95,12 @@ std::string pack(std::string content, Random& random)
   return status == Z_STREAM_END ? packed : std::string();
 }
 
-void mutate(std::string& bytes, Random& random, std::size_t most)
-{
-  if (one_in(random, 3))
-  {
-    mutate_bytes(bytes, most);
-    return;
-  }
-  std::string content = unpack_with_zlib(bytes, 4 * most).text;
-  if (one_in(random, 8)) // the file is then larger than a window, or a step
-  {
-    while (!content.empty() && content.size() < (std::size_t{ 1 } << 17))
-    {
-      content += content;
-    }
-  }
-  if (!one_in(random, 3))
-  {
-    mutate_bytes(content, content.size() + 64);
-  }
-  const std::size_t cut = one_in(random, 3) ? below(random, content.size() + 1) : content.size();
-  bytes = pack(content.substr(0, cut), random);
-  if (cut < content.size())
-  {
-    bytes.append(one_in(random, 2) ? below(random, 8) : 0, '\0');
-    bytes += pack(content.substr(cut), random);
-  }
-}
 }
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+void fuzz::mutate(std::string& bytes, Random& random, std::size_t most)
 {
-  return mutate_as(data, size, most, seed, mutate);
+  mutate_packed(bytes, random, most, unpack_with_zlib, pack,
+    [](Random& chance) { return std::string(one_in(chance, 4) ? below(chance, 8) : 0, '\0'); });
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -2,14 +2,18 @@
 // A file of local data, all the way: index, what the columns are, then the rows and lines of each frame; and the same bytes
 // cut in two, as the files of two processes. Whatever the bytes are, there is an Error, or as many rows as the index says;
 // and a file that grew is indexed as one that was always as long, if there is nothing to be said of it.
-#include "local_checks.h"
+#include "dump_checks.h"
 
+#include "granular/local/local_columns.h"
 #include "granular/local/local_file.h"
+#include "granular/local/local_reader.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +70,27 @@ LocalFrame read(const RunIndex& run, std::size_t frame, LocalRequest request)
   return read_local(run.pieces(frame), request, alone, notices, progress);
 }
 
+/// Guesses names from the rows; where they tell nothing, from the columns alone.
+std::vector<std::string> guess_names(const RunIndex& run, const FramePiece& first)
+{
+  std::vector<std::string> columns;
+  std::ranges::transform(
+    first.entry.kind->schema.columns(), std::back_inserter(columns), &ColumnInfo::name);
+  Notices notices;
+  Progress progress;
+  try
+  {
+    const LocalSample sample = read_sample(run, *first.entry.kind, progress);
+    const std::vector<std::string> names = find_columns(columns, sample, where_of(first), notices);
+    require(names.size() == columns.size(), "a name for each column");
+    return names;
+  }
+  catch (const Error&)
+  {
+    return name_columns(columns);
+  }
+}
+
 /// As many values and ends of lines as rows; two parts have each row once.
 void check(const RunIndex& run, std::size_t number)
 {
@@ -75,8 +100,7 @@ void check(const RunIndex& run, std::size_t number)
     rows += piece.entry.rows;
   }
   LocalRequest request;
-  request.columns = guess_names(run, run.first_piece(number),
-    [](const std::vector<std::string>& columns) { return name_columns(columns); });
+  request.columns = guess_names(run, run.first_piece(number));
   request.lines.threads = 2;
   request.wanted = [](std::string_view) { return true; };
   for (const auto periodic : { PeriodicLines::MinimumImage, PeriodicLines::Split })
@@ -107,6 +131,11 @@ void check(const RunIndex& run, std::size_t number)
         parts += read(run, number, part).table.rows;
       }
       require(parts == rows, "rows of parts");
+      part = request;
+      part.lines.pool = used_memory();
+      const LocalFrame again = read(run, number, part);
+      require(content_of({ &again.table }) == content_of({ &frame.table }),
+        "what was read depends on the memory");
     }
     catch (const FormatError& error)
     {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A word: parse_double against strtod, every path of decode_rows against parse_double and
-// parse_int64, and the number printed again against snprintf.
+// A word: parse_double against strtod, and every path of decode_rows against parse_double and parse_int64.
 #include "granular/numbers/number.h"
-#include "granular/numbers/number_print.h"
 #include "granular/text/row_text.h"
 
 #include <algorithm>
@@ -105,23 +103,6 @@ void check_rows(
     require(!is_integer || i == integer, "row: value of an integer", word);
   }
 }
-
-void check_print(const std::string& word, double number, std::int64_t integer)
-{
-  char text[granular::most_number_chars];
-  char expected[granular::most_number_chars];
-  for (int digits = 1; digits <= 17; ++digits)
-  {
-    const char* const end = granular::print_number(text, number, { digits });
-    std::snprintf(expected, sizeof expected, "%.*g", digits, number);
-    require(std::string_view(text, end) == expected, "print: not what snprintf gives", word);
-  }
-  const char* end = granular::print_number(text, number, { 0 });
-  const std::string shortest(static_cast<const char*>(text), end);
-  require(same(std::strtod(shortest.c_str(), nullptr), number), "print: another number", word);
-  end = granular::print_integer(text, integer);
-  require(std::to_string(integer) == std::string_view(text, end), "print: another integer", word);
-}
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -137,10 +118,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_double(word, is_number, number);
   }
   check_integer(word, is_integer, integer, is_number, number);
-  if (is_number)
-  {
-    check_print(word, number, integer);
-  }
   const bool one_word =
     size > 0 && std::all_of(data, data + size, [](std::uint8_t byte) { return byte > ' '; });
   if (one_word)

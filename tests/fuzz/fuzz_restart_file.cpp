@@ -46,15 +46,7 @@ void check(const RestartLayout& layout, std::int64_t size)
 /// What came of reading: all arrays, or what is wrong.
 std::string content_of(const RestartFrame& frame)
 {
-  std::string all;
-  for (const DumpFrame* const rows : { &frame.particles, &frame.bonds.table })
-  {
-    all.append(static_cast<const char*>(rows->points.data()), rows->points.bytes());
-    for (const DumpArray& array : rows->arrays)
-    {
-      all += array.info.name + values_of(array, rows->rows);
-    }
-  }
+  std::string all = granular::content_of({ &frame.particles, &frame.bonds.table });
   return all.append(
     static_cast<const char*>(frame.bonds.lines.points.data()), frame.bonds.lines.points.bytes());
 }
@@ -79,6 +71,7 @@ void check_reading(const ByteSource& source, const RestartLayout& layout, Restar
   const RestartFrame whole = read(source, layout, request);
   require(whole.particles.rows == layout.records, "the particles");
   request.lines.threads = 3;
+  request.lines.pool = used_memory();
   require(content_of(read(source, layout, request)) == content_of(whole), "threads differ");
   std::int64_t particles = 0;
   std::int64_t bonds = 0;
@@ -103,12 +96,6 @@ std::vector<RestartRequest> restart_requests()
   all[2].lines.point_origin = { 1, 2, 3 };
   return all;
 }
-}
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
-{
-  return fuzz::mutate_as(data, size, most, seed, fuzz::mutate_restart);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A Zstandard file from memory, against the library. The mutator changes the content and packs it again: other levels, windows,
 // blocks, frames and header fields, and frames to be passed over.
-#include "mutations.h"
 #include "packed_checks.h"
 
 #include <zstd.h>
@@ -112,40 +111,16 @@ std::string skippable(Random& random)
   return frame.append(size, 's');
 }
 
-void mutate(std::string& bytes, Random& random, std::size_t most)
-{
-  if (one_in(random, 3))
-  {
-    mutate_bytes(bytes, most);
-    return;
-  }
-  std::string content = unpack_with_zstd(bytes, 4 * most).text;
-  if (one_in(random, 8)) // the content is then larger than a block, or a step
-  {
-    while (!content.empty() && content.size() < (std::size_t{ 1 } << 18))
-    {
-      content += content;
-    }
-  }
-  if (!one_in(random, 3))
-  {
-    mutate_bytes(content, content.size() + 64);
-  }
-  const std::size_t cut = one_in(random, 3) ? below(random, content.size() + 1) : content.size();
-  bytes = one_in(random, 6) ? skippable(random) : std::string();
-  bytes += pack(std::string_view(content).substr(0, cut), random);
-  bytes += one_in(random, 6) ? skippable(random) : std::string();
-  if (cut < content.size())
-  {
-    bytes += pack(std::string_view(content).substr(cut), random);
-  }
-}
 }
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+void fuzz::mutate(std::string& bytes, Random& random, std::size_t most)
 {
-  return mutate_as(data, size, most, seed, mutate);
+  mutate_packed(bytes, random, most, unpack_with_zstd, pack,
+    [](Random& chance) { return one_in(chance, 6) ? skippable(chance) : std::string(); });
+  if (one_in(random, 6))
+  {
+    bytes.insert(0, skippable(random));
+  }
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

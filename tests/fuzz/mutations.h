@@ -114,22 +114,24 @@ inline double other_double(Random& random)
   }
 }
 
-/// Calls mutate(bytes, random, most), and keeps what comes of it if it fits.
-template <class Mutate>
-std::size_t mutate_as(
-  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed, const Mutate& mutate)
+/// The target's own mutator.
+void mutate(std::string& bytes, Random& random, std::size_t most);
+}
+
+/// Keeps what comes of the target's own mutator if it fits. This header belongs to the one source of a target.
+extern "C" std::size_t LLVMFuzzerCustomMutator(
+  std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
 {
-  Random random(seed | 1u);
+  granular::fuzz::Random random(seed | 1u);
   random.discard(2); // the first numbers of near seeds are near
   std::string bytes(reinterpret_cast<const char*>(data), size);
-  mutate(bytes, random, most);
+  granular::fuzz::mutate(bytes, random, most);
   if (bytes.empty() || bytes.size() > most)
   {
     return LLVMFuzzerMutate(data, size, most);
   }
   bytes.copy(reinterpret_cast<char*>(data), bytes.size());
   return bytes.size();
-}
 }
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef granular_tests_fuzz_packed_checks_h
 #define granular_tests_fuzz_packed_checks_h
 
+#include "mutations.h"
+
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 
@@ -120,6 +122,36 @@ inline void compare(const Content& content, const Reference& reference)
     "the size of the content");
   require(content.unchecked.empty() == (reference.end == End::Whole),
     "checked, or not, unlike the library");
+}
+
+/// Other content, packed again, now and then in two parts with something between them.
+template <class Unpack, class Pack, class Between>
+void mutate_packed(std::string& bytes, Random& random, std::size_t most, const Unpack& unpack,
+  const Pack& pack, const Between& between)
+{
+  if (one_in(random, 3))
+  {
+    mutate_bytes(bytes, most);
+    return;
+  }
+  std::string content = unpack(bytes, 4 * most).text;
+  if (one_in(random, 8)) // the content is then larger than a window, a block, or a step
+  {
+    while (!content.empty() && content.size() < (std::size_t{ 1 } << 18))
+    {
+      content += content;
+    }
+  }
+  if (!one_in(random, 3))
+  {
+    mutate_bytes(content, content.size() + 64);
+  }
+  const std::size_t cut = one_in(random, 3) ? below(random, content.size() + 1) : content.size();
+  bytes = pack(content.substr(0, cut), random) + between(random);
+  if (cut < content.size())
+  {
+    bytes += pack(content.substr(cut), random);
+  }
 }
 
 /// All there is to do with a compressed file. summed: damage is seen, however the file is read.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A main for fuzz targets without libFuzzer: feeds every file named on the command line, and every
-// file of every folder named there, to the target once, and a few times as the target's own mutator
-// changes it. A crash is the failure; so is an empty corpus, which would test nothing.
+// file of every folder named there, to the target once, and a few times damaged and as the target's own
+// mutator changes it. A crash is the failure; so is an empty corpus, which would test nothing.
+
+#include "../support/file_damage.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,24 +21,24 @@ extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(
   std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed);
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
-/// Instead of libFuzzer's: another byte, the same in each run.
+namespace
+{
+file_damage::Random chance;
+}
+
+/// Instead of libFuzzer's: damage, the same in each run.
 std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most)
 {
-  if (size == 0 && most > 0)
-  {
-    data[size++] = '0';
-  }
-  if (size > 0)
-  {
-    std::uint8_t& byte = data[7919 % size];
-    byte = static_cast<std::uint8_t>(byte + 1);
-  }
-  return size;
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  std::string other = file_damage::damage(bytes.empty() ? "0" : bytes, bytes, chance);
+  other.resize(std::min(other.size(), most));
+  other.copy(reinterpret_cast<char*>(data), other.size());
+  return other.size();
 }
 
 namespace
 {
-constexpr unsigned mutations = 8;
+constexpr unsigned mutations = 8; // every second one by the target's own mutator
 constexpr std::size_t most_growth = 4096;
 
 // The order of a folder's entries is the file system's: sorted, a failing run can be repeated.
@@ -73,11 +75,14 @@ bool replay(const std::filesystem::path& input, bool mutate)
   std::printf("%s (%zu bytes)\n", input.c_str(), data.size());
   std::fflush(stdout);
   LLVMFuzzerTestOneInput(data.data(), data.size());
-  for (unsigned seed = 1; mutate && LLVMFuzzerCustomMutator && seed <= mutations; ++seed)
+  for (unsigned seed = 1; mutate && seed <= mutations; ++seed)
   {
     std::vector<std::uint8_t> other = data;
     other.resize(data.size() + most_growth);
-    const std::size_t size = LLVMFuzzerCustomMutator(other.data(), data.size(), other.size(), seed);
+    chance.seed(seed);
+    const std::size_t size = LLVMFuzzerCustomMutator && seed % 2 == 0
+      ? LLVMFuzzerCustomMutator(other.data(), data.size(), other.size(), seed)
+      : LLVMFuzzerMutate(other.data(), data.size(), other.size());
     const std::vector<std::uint8_t> exact(other.data(), other.data() + size);
     LLVMFuzzerTestOneInput(exact.data(), exact.size());
   }

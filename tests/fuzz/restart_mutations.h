@@ -283,7 +283,7 @@ private:
   std::size_t atoms_ = 0; ///< where their number is
 };
 
-inline void mutate_restart(std::string& bytes, Random& random, std::size_t most)
+inline void mutate(std::string& bytes, Random& random, std::size_t most)
 {
   std::optional<RestartLayout> layout;
   if (!one_in(random, 4))
