@@ -3,7 +3,7 @@
 #define vtkGranularGrainShaders_h
 
 // Programs of the graphics hardware for vtkGranularGrainMapper. VTK replaces what begins with //VTK:: by colours, lights and selection.
-// VC are the coordinates of the camera, which looks along -z; MC those of the buffers, counted from a place in view. Where HAVE_SHAPES is
+// VC are the coordinates of the camera, which looks along -z; MC those of the buffers, counted from a place: in view, or the camera's own. Where HAVE_SHAPES is
 // defined, particles are superquadrics; else spheres.
 namespace vtkGranularGrainShaders
 {

@@ -15,11 +15,10 @@ namespace
 constexpr float InnerPart = 0.95F;
 constexpr float InnerPartInPerspective = 0.8F;
 constexpr float Widest = 0.7F;
-constexpr int MostCells = 2048;  // along an axis
-constexpr float CellPart = 0.4F; // of a radius that a cell is long
-constexpr int BlockSide = 4;     // cells
-
-constexpr vtkIdType FewestOfThread = 20000;
+constexpr int MostCells = 2048;             // along an axis
+constexpr float CellPart = 0.4F;            // of a radius that a cell is long
+constexpr int BlockSide = 4;                // cells
+constexpr vtkIdType FewestOfThread = 20000; // particles
 constexpr vtkIdType MostThreads = 8;
 
 // Does something for parts of a range, each in a thread of its own.
@@ -92,10 +91,10 @@ const vtkGranularHiddenGrains::Seen& vtkGranularHiddenGrains::Find(
   this->MakeCells(view, grains);
   const auto parts = static_cast<std::size_t>(std::clamp<vtkIdType>(grains.Count / FewestOfThread,
     1, std::clamp<vtkIdType>(std::thread::hardware_concurrency(), 1, MostThreads)));
-  std::vector<std::vector<float>> depths(parts, this->Depths);
+  std::vector<std::vector<float>> depths(parts - 1, this->Depths); // of the other threads
   ForParts(grains.Count, parts,
     [&](std::size_t part, vtkIdType begin, vtkIdType end)
-    { this->CoverBy(view, grains, begin, end, depths[part]); });
+    { this->CoverBy(view, grains, begin, end, part == 0 ? this->Depths : depths[part - 1]); });
   for (const std::vector<float>& others : depths)
   {
     std::transform(others.begin(), others.end(), this->Depths.begin(), this->Depths.begin(),

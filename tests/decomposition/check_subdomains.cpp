@@ -317,7 +317,7 @@ TEST(CheckSubdomains, notices)
     "expected subdomains that fill the box from 0 0 0 to 4 1 1, got gaps of 0.5 of its volume");
 }
 
-/// Where doubles are few: a small box far away, the largest and the smallest numbers.
+/// Boxes where doubles are few: a small box far away, the largest and the smallest numbers.
 TEST(CheckSubdomains, extremes)
 {
   Subdomains far;

@@ -24,7 +24,7 @@ class DurableClasses : public OwnFolder
 protected:
   void TearDown() override { stop_failing(); }
 
-  /// How often a new writer waits for the disk.
+  /// Returns the number of times that a new writer waits for the disk.
   template <class WriterClass>
   long Syncs(vtkAlgorithm* input, const std::string& name, int durable)
   {

@@ -6,7 +6,6 @@ import ctypes
 import os
 import shutil
 import signal
-import sys
 
 import granular
 from granular.command import main

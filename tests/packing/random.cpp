@@ -81,7 +81,7 @@ double square_distance(const Vector3& a, const Vector3& b, double edge)
   return square;
 }
 
-/// How many pairs have a gap of so many eighths.
+/// Numbers of pairs by their gap in eighths.
 Histogram pairs_of(
   const std::vector<Vector3>& points, const std::vector<double>& radii, double edge)
 {
