@@ -15,8 +15,8 @@ uniform vec4 placePixel; // where the picture shows the place: whole pixels, and
 uniform vec2 pixelVC; // the size of a pixel at z = -1, or at any z if parallel
 uniform int cameraParallel;
 uniform float nearVC; // z of the near plane
-uniform vec3 middleVC; // z of the place from where the depth is 1/2, the change of depth with z there, and that of w with z by w
-uniform vec3 farVC; // the same for where it is 1
+uniform vec2 middleVC; // z of the place from where the depth is 1/2, and the change of depth with z there, times w
+uniform vec2 farVC; // the same for where it is 1
 #ifdef CLIPS
 uniform vec4 clipVC[CLIPS];
 #endif
@@ -113,12 +113,13 @@ constexpr const char* FragmentSurface = R"(
 #endif
   }
   vertexVC = vec4(centerVC + surfaceVC, 1.0);
+  float w = cameraParallel != 0 ? 1.0 : -vertexVC.z;
   float fromMiddle = middleVC.x + centerVCVSOutput.z + surfaceVC.z;
-  gl_FragDepth = 0.5 + fromMiddle * middleVC.y / (1.0 + fromMiddle * middleVC.z);
+  gl_FragDepth = 0.5 + fromMiddle * middleVC.y / w;
   if (gl_FragDepth > 0.875) // digits are lost with the distance from where a depth is known
   {
     float fromFar = farVC.x + centerVCVSOutput.z + surfaceVC.z;
-    gl_FragDepth = 1.0 + fromFar * farVC.y / (1.0 + fromFar * farVC.z);
+    gl_FragDepth = 1.0 + fromFar * farVC.y / w;
   }
   if (gl_FragDepth > 1.0)
   {

@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace
@@ -50,24 +51,6 @@ vtkSmartPointer<vtkFloatArray> MakeFloats(vtkIdType tuples, int components)
   auto made = vtkSmartPointer<vtkFloatArray>::New();
   made->SetNumberOfComponents(components);
   made->SetNumberOfTuples(tuples);
-  return made;
-}
-
-// Returns the points, all or those that are seen, counted from a place.
-vtkSmartPointer<vtkFloatArray> CountedFrom(const std::array<double, 3>& place, vtkDataArray* points,
-  const vtkGranularHiddenGrains::Seen* seen)
-{
-  const vtkIdType count =
-    seen ? static_cast<vtkIdType>(seen->Grains.size()) : points->GetNumberOfTuples();
-  auto made = MakeFloats(count, 3);
-  float* to = made->GetPointer(0);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double point[3];
-    points->GetTuple(seen ? seen->Grains[static_cast<std::size_t>(i)] : i, point);
-    to = std::transform(point, point + 3, place.begin(), to,
-      [](double at, double from) { return static_cast<float>(at - from); });
-  }
   return made;
 }
 
@@ -128,17 +111,16 @@ struct View
   }
 
   // The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from where the picture's
-  // z is a given one, the change of the depth with z there, and that of w = c z + d by w.
-  std::array<float, 3> DepthFrom(double pictures) const
+  // z is a given one, and the change of the depth with z there, times w = c z + d.
+  std::array<float, 2> DepthFrom(double pictures) const
   {
     const double a = this->Element(2, 2);
     const double b = this->Element(2, 3);
     const double c = this->Element(3, 2);
     const double d = this->Element(3, 3);
     const double z = (pictures * d - b) / (a - pictures * c);
-    const double w = c * z + d;
     return { static_cast<float>(this->Place(2) - z),
-      static_cast<float>(0.5 * (a * d - b * c) / (w * w)), static_cast<float>(c / w) };
+      static_cast<float>(0.5 * (a * d - b * c) / (c * z + d)) };
   }
 
   vtkGranularHiddenGrains::View ForHidden() const
@@ -168,23 +150,6 @@ struct View
   float Scale; // of lengths
   float Near;  // z of the near plane
 };
-
-// Returns the place from which the particles are counted in the buffers. Close to a camera in perspective the units of a depth buffer are
-// parts of the distance, so there it is the camera; else a given place in the middle of the particles.
-std::array<double, 3> ChoosePlace(
-  vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& middle)
-{
-  const View view(renderer, actor, middle);
-  vtkCamera* camera = view.Camera;
-  const double* range = camera->GetClippingRange();
-  if (view.IsParallel() || (view.IsInFront() && 3.0 * range[0] > range[1]))
-  {
-    return middle;
-  }
-  std::array<double, 3> position;
-  camera->GetPosition(position.data());
-  return vtkGranularPlaceInView::InData(position, actor);
-}
 }
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
@@ -199,6 +164,48 @@ void vtkGranularGrainMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Growth: " << this->Growth << "\n";
   os << indent << "HaveShapes: " << this->HaveShapes << "\n";
   os << indent << "ShapeSizes: " << this->ShapeSizes << "\n";
+}
+
+// Returns the coordinates of the points, all or those that are seen.
+vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(
+  const Counting& counting, vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen)
+{
+  const vtkIdType count =
+    seen ? static_cast<vtkIdType>(seen->Grains.size()) : points->GetNumberOfTuples();
+  auto made = MakeFloats(count, 3);
+  float* to = made->GetPointer(0);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double at[3];
+    points->GetTuple(seen ? seen->Grains[static_cast<std::size_t>(i)] : i, at);
+    std::transform(at, at + 3, counting.From.begin(), at, std::minus<>());
+    for (const double* axis = counting.Axes.data(); axis != counting.Axes.data() + 9; axis += 3)
+    {
+      *to++ = static_cast<float>(axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2]);
+    }
+  }
+  return made;
+}
+
+// Close to a camera in perspective the units of a depth buffer are parts of the distance, so there coordinates are those of the camera, in
+// doubles until they are floats; else they are counted from a given place in the middle of the particles, and serve all pictures.
+vtkGranularGrainMapper::Counting vtkGranularGrainMapper::ChooseCounting(
+  vtkRenderer* renderer, vtkActor* actor, const Place& middle)
+{
+  const View view(renderer, actor, middle);
+  vtkCamera* camera = view.Camera;
+  const double* range = camera->GetClippingRange();
+  Counting chosen{ middle };
+  if (!view.IsParallel() && !(view.IsInFront() && 3.0 * range[0] > range[1]))
+  {
+    camera->GetPosition(chosen.From.data());
+    chosen.From = vtkGranularPlaceInView::InData(chosen.From, actor);
+    for (int i = 0; i < 9; ++i)
+    {
+      chosen.Axes[static_cast<std::size_t>(i)] = view.ToCamera->GetElement(i / 3, i % 3);
+    }
+  }
+  return chosen;
 }
 
 void vtkGranularGrainMapper::Draw(
@@ -225,10 +232,10 @@ void vtkGranularGrainMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     // off where points are selected; here they are surfaces, of which the nearest counts
     static_cast<vtkOpenGLRenderer*>(renderer)->GetState()->vtkglDepthMask(1);
   }
-  const Place place = ChoosePlace(renderer, actor, this->From);
-  const bool isPlaceNew = this->Counted != place;
-  this->Counted = place;
-  if (!this->FindSeen(renderer, actor) && (!this->HasAll || isPlaceNew))
+  const Counting counting = ChooseCounting(renderer, actor, this->From);
+  const bool isNew = this->Counted != counting;
+  this->Counted = counting;
+  if (!this->FindSeen(renderer, actor) && (!this->HasAll || isNew))
   {
     this->Upload(renderer, nullptr);
   }
@@ -282,11 +289,17 @@ void vtkGranularGrainMapper::ReplaceShaderClip(
 void vtkGranularGrainMapper::SetCameraShaderParameters(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
-  const View view(renderer, actor, this->Counted);
+  const View view(renderer, actor, this->Counted.From);
   vtkShaderProgram* program = helper.Program;
-  vtkNew<vtkMatrix4x4> toCamera;
-  vtkMatrix4x4::Transpose(view.ToCamera, toCamera);
-  program->SetUniformMatrix("MCVCMatrix", toCamera);
+  const bool isOfCamera = this->Counted.Axes != Counting().Axes;
+  float toCamera[2][9]; // the buffers' coordinates and the data's, column by column
+  for (int i = 0; i < 9; ++i)
+  {
+    toCamera[1][i] = static_cast<float>(view.ToCamera->GetElement(i % 3, i / 3));
+    toCamera[0][i] = isOfCamera ? (i % 4 == 0 ? 1.0F : 0.0F) : toCamera[1][i];
+  }
+  program->SetUniformMatrix3x3("bufferVC", toCamera[0]);
+  program->SetUniformMatrix3x3("dataVC", toCamera[1]);
   program->SetUniformf("scaleVC", view.Scale);
   program->SetUniformi("cameraParallel", view.IsParallel() ? 1 : 0);
   program->SetUniformf("nearVC", view.Near);
@@ -321,8 +334,8 @@ void vtkGranularGrainMapper::SetCameraShaderParameters(
   program->SetUniform4f("placePixel", pixels);
   program->SetUniform2f("pixelVC", pixelSizes);
 
-  program->SetUniform3f("middleVC", view.DepthFrom(0.0).data());
-  program->SetUniform3f("farVC", view.DepthFrom(1.0).data());
+  program->SetUniform2f("middleVC", view.DepthFrom(0.0).data());
+  program->SetUniform2f("farVC", view.DepthFrom(1.0).data());
   this->SetClips(program, view.Camera->GetModelViewTransformMatrix());
 }
 
@@ -367,7 +380,7 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   vtkPolyData* data = this->CurrentInput;
   const vtkIdType count = data->GetNumberOfPoints();
   this->Values.clear();
-  this->Values["vertexMC"] = CountedFrom(this->From, data->GetPoints()->GetData(), nullptr);
+  this->Values["vertexMC"] = Count({ this->From }, data->GetPoints()->GetData(), nullptr);
   auto radii = MakeFloats(count, 1);
   const char* name = this->Owner->GetScaleArray();
   vtkDataArray* given = Find(data, name);
@@ -396,7 +409,7 @@ void vtkGranularGrainMapper::Upload(
     vtkSmartPointer<vtkDataArray> values = this->Values[name];
     if (name == std::string("vertexMC"))
     {
-      values = CountedFrom(this->Counted, this->CurrentInput->GetPoints()->GetData(), seen);
+      values = Count(this->Counted, this->CurrentInput->GetPoints()->GetData(), seen);
     }
     else if (values && seen)
     {

@@ -93,6 +93,18 @@ private:
   vtkGranularGrainMapper(const vtkGranularGrainMapper&) = delete;
   void operator=(const vtkGranularGrainMapper&) = delete;
 
+  // How the coordinates of the buffers are counted: from a place, along axes (rows).
+  struct Counting
+  {
+    bool operator==(const Counting&) const = default;
+
+    Place From{};
+    std::array<double, 9> Axes{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  };
+
+  static Counting ChooseCounting(vtkRenderer* renderer, vtkActor* actor, const Place& middle);
+  static vtkSmartPointer<vtkFloatArray> Count(
+    const Counting& counting, vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen);
   void SetClips(vtkShaderProgram* program, vtkMatrix4x4* worldToCamera);
   void BuildShapes(vtkFloatArray* radii);
   void BuildColors(vtkActor* actor);
@@ -106,7 +118,7 @@ private:
   vtkPointGaussianMapper* Owner = nullptr; // while it draws
   Place From{};                            // of the next picture
   Place Built{};                           // of the values
-  Place Counted{};                         // of the buffers
+  Counting Counted;                        // of the buffers
   bool HaveShapes = false;
   std::map<std::string, vtkSmartPointer<vtkDataArray>>
     Values; // of each particle, by the names that the programs have for them

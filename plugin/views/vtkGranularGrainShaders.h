@@ -3,7 +3,7 @@
 #define vtkGranularGrainShaders_h
 
 // Programs of the graphics hardware for vtkGranularGrainMapper. VTK replaces what begins with //VTK:: by colours, lights and selection.
-// VC are the coordinates of the camera, which looks along -z; MC those of the buffers, counted from a place: in view, or the camera's own. Where HAVE_SHAPES is
+// VC are the coordinates of the camera, which looks along -z; MC those of the buffers: counted from a place in view along the data's axes, or VC. Where HAVE_SHAPES is
 // defined, particles are superquadrics; else spheres.
 namespace vtkGranularGrainShaders
 {
@@ -12,12 +12,13 @@ constexpr const char* Vertex = R"(//VTK::System::Dec
 in vec4 vertexMC;
 in float radiusMC; // of a sphere around the particle
 in vec4 partMC; // of the square around the particle that may be seen: low and high x and y, as parts of it
-uniform mat4 MCVCMatrix;
+uniform mat3 bufferVC; // from MC to VC
 uniform float scaleVC;
 out vec3 centerVCVSOutput; // from the place
 out float radiusVCVSOutput;
 out vec4 partVSOutput;
 #ifdef HAVE_SHAPES
+uniform mat3 dataVC;
 in vec3 axesMC;
 in vec4 turnMC; // w x y z
 in vec2 powersMC; // n1 along z, n2 across it
@@ -33,7 +34,7 @@ void main()
   //VTK::Color::Impl
   radiusVCVSOutput = radiusMC * scaleVC;
   partVSOutput = partMC;
-  centerVCVSOutput = mat3(MCVCMatrix) * vertexMC.xyz;
+  centerVCVSOutput = bufferVC * vertexMC.xyz;
   gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef HAVE_SHAPES
   float w = turnMC.x;
@@ -42,7 +43,7 @@ void main()
     1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y + w * q.z), 2.0 * (q.x * q.z - w * q.y),
     2.0 * (q.x * q.y - w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z + w * q.x),
     2.0 * (q.x * q.z + w * q.y), 2.0 * (q.y * q.z - w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
-  turnVCVSOutput = mat3(MCVCMatrix) * turn / scaleVC;
+  turnVCVSOutput = dataVC * turn / scaleVC;
   axesVCVSOutput = axesMC * scaleVC;
   powersVSOutput = powersMC;
 #endif

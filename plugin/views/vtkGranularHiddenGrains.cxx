@@ -10,13 +10,13 @@
 
 namespace
 {
-// Parts of a radius: rays so near to the centre's meet the sphere, and in front of its centre. In perspective a sphere beside the line of
-// sight is an ellipse that leans outwards, and its outer flank is behind the centre: up to a tangent of 0.75 with a part of 0.8.
+// A part of a radius: rays so near to the centre meet the sphere in front of its centre. In perspective they do up to the cosine of their
+// angle with the line of sight, since the outer flank of a sphere beside it is behind the centre. The tangent of the outermost of these rays
+// is (distance from the line of sight + radius) / distance along it.
 constexpr float InnerPart = 0.95F;
-constexpr float InnerPartInPerspective = 0.8F;
-constexpr float Widest = 0.7F;
+constexpr float Floats = 0.99F;             // a margin for what they round
 constexpr int MostCells = 2048;             // along an axis
-constexpr float CellPart = 0.4F;            // of a radius that a cell is long
+constexpr float CellPart = 0.3F;            // of a radius that a cell is long
 constexpr int BlockSide = 4;                // cells
 constexpr vtkIdType FewestOfThread = 20000; // particles
 constexpr vtkIdType MostThreads = 8;
@@ -123,11 +123,11 @@ void vtkGranularHiddenGrains::CoverBy(const View& view, const Grains& grains, vt
   {
     const float radius = grains.Inner[i] * view.Radius;
     const Centre centre = CentreOf(view, grains.Points + 3 * i);
-    const bool narrow =
-      view.Parallel || std::hypot(centre.X, centre.Y) + radius < Widest * centre.Away;
-    if (narrow && IsFinite(centre) && radius > 0.0F && radius - centre.Away <= view.Near)
+    if (IsFinite(centre) && radius > 0.0F && radius - centre.Away <= view.Near)
     {
-      const float part = view.Parallel ? InnerPart : InnerPartInPerspective;
+      const float beside = view.Parallel ? 0.0F : std::hypot(centre.X, centre.Y) + radius;
+      const float cosine = centre.Away / std::hypot(centre.Away, beside);
+      const float part = std::min(InnerPart, Floats * cosine);
       this->Cover(Square(view, centre, part * radius, centre.Away), depths);
     }
   }
