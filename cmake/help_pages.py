@@ -67,10 +67,10 @@ def default_of(property_):
     return names.get(default, "" if default == "none" else default)
 
 
-def page_of(proxy):
+def page_of(proxy, properties):
     """Returns the page of a proxy: what it does, and a table of its properties but those that only inform."""
     rows = ["<tr><th>property</th><th width='55%'>meaning</th><th>values</th><th>default</th></tr>"]
-    for property_ in proxy:
+    for property_ in sorted(properties, key=lambda one: one.get("panel_visibility") == "advanced"):
         if property_.tag.endswith("Property") and property_.get("information_only") != "1":
             cells = [f"<b>{html.escape(property_.get('name'))}</b>", as_html(property_.find("Documentation")),
                      html.escape(values_of(property_)), html.escape(default_of(property_))]
@@ -87,13 +87,19 @@ def title_of(proxy):
 def read_pages(paths):
     """Returns [(file name, title, HTML)] of all proxies in files of XML; the first one is an index of the others."""
     pages = []
-    for path in paths:
-        for group in ElementTree.parse(path).getroot().iter("ProxyGroup"):
-            for proxy in group:
-                if proxy.tag.endswith("Proxy"):
-                    name = f"{group.get('name')}.{proxy.get('name')}.html"
-                    title = html.escape(title_of(proxy))
-                    pages.append((name, title, PAGE.format(title=title, body=page_of(proxy))))
+    groups = [group for path in paths for group in ElementTree.parse(path).getroot().iter("ProxyGroup")]
+    bases = {proxy.get("name"): proxy for group in groups for proxy in group}
+
+    def children(proxy):
+        base = bases.get(proxy.get("base_proxyname"))
+        return [*(children(base) if base is not None else []), *proxy]
+
+    for group in groups:
+        for proxy in group:
+            if proxy.tag.endswith("Proxy") and not group.get("name").startswith("internal_"):
+                name = f"{group.get('name')}.{proxy.get('name')}.html"
+                title = html.escape(title_of(proxy))
+                pages.append((name, title, PAGE.format(title=title, body=page_of(proxy, children(proxy)))))
     pages.sort()
     links = "\n".join(f"<li><a href='{name}'>{title}</a></li>" for name, title, _ in pages)
     return [("index.html", "vtk-granular", PAGE.format(title="vtk-granular", body=f"<ul>\n{links}\n</ul>"))] + pages

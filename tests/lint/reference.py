@@ -6,7 +6,6 @@ import ast
 import os
 import re
 import sys
-from xml.parsers import expat
 
 import server_manager
 import tree
@@ -63,10 +62,10 @@ def default(prop):
     return "" if given == "none" else given
 
 
-def exposed_names(top):
+def exposed_names(proxies):
     """The names by which users of a display know the properties of a representation."""
-    return {prop.get("name"): prop.get("exposed_name") for group in top.all("PropertyGroup") for prop in group.all("Property")
-            if prop.get("exposed_name")}
+    return {prop.get("name"): prop.get("exposed_name") for proxy in proxies for group in proxy.all("PropertyGroup")
+            for prop in group.all("Property") if prop.get("exposed_name")}
 
 
 def signature(node, skipped=0):
@@ -135,7 +134,8 @@ def page(group, proxy, header, exposed):
     ports = [port.get("name") for port in proxy.children if port.tag == "OutputPort"]
     if ports:
         lines += ["Outputs: " + ", ".join(f"{number} `{port}`" for number, port in enumerate(ports)) + ".", ""]
-    properties = [prop for prop in proxy.children if prop.tag.endswith("Property")]
+    properties = sorted((prop for prop in proxy.children if prop.tag.endswith("Property")),
+                        key=lambda prop: prop.get("panel_visibility") == "advanced")
     for title, chosen in (("Properties", [prop for prop in properties if prop.get("information_only") != "1"]),
                           ("Information", [prop for prop in properties if prop.get("information_only") == "1"])):
         if not chosen:
@@ -157,20 +157,13 @@ def pages(root):
     files = tree.files(root)
     if INIT in files:
         yield f"{FOLDER}granular.md", functions_page(root, files)
-    for path in files:
-        if not re.match(r"xml/[^/]+\.xml$", path):
-            continue
-        try:
-            top = server_manager.parse(tree.read(root, path))
-        except expat.ExpatError:
-            continue  # server_manager says so
-        exposed = exposed_names(top)
-        for group in top.all("ProxyGroup"):
-            for proxy in group.children:
-                headers = [f"{folder}{proxy.get('class')}.h" for folder in HEADERS]
-                header = next((one for one in headers if os.path.exists(os.path.join(root, one))), None)
-                if header and group.get("name") in GROUPS:
-                    yield f"{FOLDER}{proxy.get('name')}.md", page(group.get("name"), proxy, tree.read(root, header), exposed)
+    found, _ = server_manager.proxies(root)
+    exposed = exposed_names(proxy for _, proxy in found)
+    for group, proxy in found:
+        headers = [f"{folder}{proxy.get('class')}.h" for folder in HEADERS]
+        header = next((one for one in headers if os.path.exists(os.path.join(root, one))), None)
+        if header and group in GROUPS:
+            yield f"{FOLDER}{proxy.get('name')}.md", page(group, proxy, tree.read(root, header), exposed)
 
 
 def check(root):

@@ -73,6 +73,14 @@ class Reference(unittest.TestCase):
 
     def test_pages_are_what_xml_and_header_say(self):
         self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page), [])
+
+    def test_pages_have_the_properties_of_bases(self):
+        begin, end = self.xml.index("<IntVectorProperty"), self.xml.index("</SourceProxy>")
+        base = self.xml.replace('"sources"><SourceProxy name="GranularX" class="vtkGranularX"', '"internal"><SourceProxy name="B"').replace(
+            "<Documentation>Reads x.</Documentation>", "")
+        own = (self.xml[:begin] + self.xml[end:]).replace(" class=", ' base_proxyname="B" class=')
+        self.assertEqual(found(reference.check, xml__b_dot_xml=base, xml__x_dot_xml=own, docs__reference__GranularX_dot_md=self.page,
+                               plugin__vtk__vtkGranularX_dot_h=self.header), [])
         self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page + "\n"), ["docs/reference/GranularX.md:1"])
         self.assertEqual(self.pages(), ["docs/reference/GranularX.md:1"])
         self.assertEqual(self.pages(docs__reference__GranularX_dot_md=self.page, docs__reference__GranularY_dot_md="old\n"),
@@ -409,6 +417,14 @@ class vtkGranularA : public vtkPolyDataAlgorithm
                              (f"{size}\n{group.format('a')}", ["xml/a.xml:2"]),
                              (f"{other}\n{size}\n{group.format('a timestep')}", ["xml/a.xml:2"])):
             self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)), wanted)
+
+    def test_bases(self):
+        base = ('<ServerManagerConfiguration><ProxyGroup name="internal_sources"><Proxy name="B">\n' +
+                self.property('name="TimestepSize" command="SetSize"') + "\n" + self.property('name="b" command="SetNone"') +
+                '\n<PropertyGroup label="a timestep"><Property name="TimestepSize"/></PropertyGroup>'
+                "</Proxy></ProxyGroup></ServerManagerConfiguration>\n")
+        own = self.xml(self.property('name="c" information_property="b"')).replace(' class=', ' base_proxyname="B" class=')
+        self.assertEqual(self.check(xml__z_dot_xml=base, xml__a_dot_xml=own), ["xml/z.xml:3"])
 
     def test_element(self):
         text = self.xml("").replace("SourceProxy", "GranularAProxy")

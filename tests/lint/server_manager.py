@@ -22,8 +22,8 @@ SHORTEST_DOCUMENTATION = 20
 
 
 class Element:
-    def __init__(self, tag, attributes, line):
-        self.tag, self.attributes, self.line = tag, attributes, line
+    def __init__(self, tag, attributes, path, line):
+        self.tag, self.attributes, self.path, self.line = tag, attributes, path, line
         self.children, self.text = [], ""
 
     def get(self, name, default=""):
@@ -37,14 +37,14 @@ class Element:
             yield from child.all(tag)
 
 
-def parse(text):
+def parse(path, text):
     """The tree of elements; expat.ExpatError where it is not XML."""
-    top = Element("", {}, 0)
+    top = Element("", {}, path, 0)
     stack = [top]
     parser = expat.ParserCreate()
 
     def start(tag, attributes):
-        element = Element(tag, attributes, parser.CurrentLineNumber)
+        element = Element(tag, attributes, path, parser.CurrentLineNumber)
         stack[-1].children.append(element)
         stack.append(element)
 
@@ -56,6 +56,28 @@ def parse(text):
     parser.CharacterDataHandler = characters
     parser.Parse(text.encode("utf-8", "surrogateescape"), True)
     return top
+
+
+def proxies(root):
+    """Group and proxy of each element of the files, and complaints. As ParaView has it, the children of a proxy begin with
+    those of its bases."""
+    found, complaints = [], []
+    for path in tree.files(root):
+        if re.match(r"xml/[^/]+\.xml$", path):
+            try:
+                top = parse(path, tree.read(root, path))
+                found += [(group.get("name"), proxy) for group in top.all("ProxyGroup") for proxy in group.children]
+            except expat.ExpatError as error:
+                complaints.append((path, error.lineno, f"not XML: {expat.errors.messages[error.code]}"))
+    by_name = {proxy.get("name"): proxy for _, proxy in found}
+
+    def children(proxy):
+        base = by_name.get(proxy.get("base_proxyname"))
+        return (children(base) if base else []) + proxy.children
+
+    for proxy, inherited in [(proxy, children(proxy)) for _, proxy in found]:
+        proxy.children = inherited
+    return found, complaints
 
 
 def methods(header):
@@ -79,8 +101,8 @@ def known_methods(root, class_name):
     return methods(text) | ((known_methods(root, base.group(1)) or set()) if base else set())
 
 
-def check_property(path, prop, known, proxies_class):
-    name = prop.get("name")
+def check_property(prop, known, proxies_class):
+    name, path = prop.get("name"), prop.path
     for attribute in COMMANDS:
         command = prop.get(attribute)
         # what overrides a property of ParaView's may keep its command, of a class of ParaView's
@@ -97,8 +119,8 @@ def check_property(path, prop, known, proxies_class):
                                 f"{SHORTEST_DOCUMENTATION} are needed")
 
 
-def check_proxy(root, path, proxy):
-    name, proxies_class = proxy.get("name"), proxy.get("class")
+def check_proxy(root, proxy):
+    name, path, proxies_class = proxy.get("name"), proxy.path, proxy.get("class")
     known = known_methods(root, proxies_class)
     if known is not None:
         known |= INHERITED
@@ -114,13 +136,13 @@ def check_proxy(root, path, proxy):
     properties = [child for child in proxy.children if child.tag.endswith("Property")]
     names = {prop.get("name") for prop in properties}
     for prop in properties:
-        yield from check_property(path, prop, known, proxies_class)
+        yield from check_property(prop, known, proxies_class)
         information = prop.get("information_property")
         if information and information not in names:
-            yield path, prop.line, f"{prop.get('name')}: there is no property {information}"
+            yield prop.path, prop.line, f"{prop.get('name')}: there is no property {information}"
 
 
-def check_times(path, proxy):
+def check_times(proxy):
     """The first line of the panel tells that times are timesteps: the label of a group of TimestepSize alone."""
     shown = [child.get("name") for child in proxy.children if child.tag.endswith("VectorProperty") and
              child.get("panel_visibility") != "never" and not child.get("information_only")]
@@ -128,7 +150,7 @@ def check_times(path, proxy):
         groups = [[each.get("name") for each in child.all("Property")] for child in proxy.children
                   if child.tag == "PropertyGroup" and "timestep" in child.get("label")]
         if shown[0] != "TimestepSize" or ["TimestepSize"] not in groups:
-            yield path, proxy.line, f"{proxy.get('name')}: TimestepSize is not first, in a group whose label tells what times are"
+            yield proxy.path, proxy.line, f"{proxy.get('name')}: TimestepSize is not first, in a group whose label tells what times are"
 
 
 def check_extensions(root, found):
@@ -145,24 +167,17 @@ def check_extensions(root, found):
 
 def check(root):
     claims = []
-    for path in tree.files(root):
-        if not re.match(r"xml/[^/]+\.xml$", path):
+    found, complaints = proxies(root)
+    yield from complaints
+    for _, proxy in found:
+        if not proxy.get("class"):
             continue
-        try:
-            top = parse(tree.read(root, path))
-        except expat.ExpatError as error:
-            yield path, error.lineno, f"not XML: {expat.errors.messages[error.code]}"
-            continue
-        for group in top.all("ProxyGroup"):
-            for proxy in group.children:
-                if not proxy.get("class"):
-                    continue
-                yield from check_proxy(root, path, proxy)
-                yield from check_times(path, proxy)
-                for kind in ("ReaderFactory", "WriterFactory"):
-                    for hint in proxy.all(kind):
-                        claims += [(kind, extension, path, hint.line, proxy.get("name"), proxy.get("class"))
-                                   for extension in hint.get("extensions").split()]
+        yield from check_proxy(root, proxy)
+        yield from check_times(proxy)
+        for kind in ("ReaderFactory", "WriterFactory"):
+            for hint in proxy.all(kind):
+                claims += [(kind, extension, proxy.path, hint.line, proxy.get("name"), proxy.get("class"))
+                           for extension in hint.get("extensions").split()]
     yield from check_extensions(root, claims)
 
 
