@@ -247,6 +247,38 @@ void TryWriter(const std::string& from, const std::string& to, bool allFrames = 
 {
   WriterTrial<FromReader, ToWriter>(from, to, allFrames).Run();
 }
+
+/// A file waits for the disk twice, for its bytes and for its name, if Durable says so; with Automatic those of a series do not.
+template <class FromReader, class ToWriter>
+void TryDurable(const std::string& from, const std::string& ending)
+{
+  const Folder folder;
+  Watched<FromReader> reader;
+  Open(reader, { from });
+  const auto expectWaits = [&](const std::string& name, int durable, long waits)
+  {
+    Watched<ToWriter> writer;
+    EXPECT_EQ(writer->GetDurable(), ToWriter::DURABLE_AUTOMATIC);
+    writer->SetInputConnection(reader->GetOutputPort());
+    writer->SetFileName(folder.path(name + ending).c_str());
+    writer->SetDurable(durable);
+    make_fail({ CallFault::Error, FailingCalls::always, 1, calls::sync });
+    EXPECT_EQ(writer->Write(), 1);
+    stop_failing();
+    EXPECT_EQ(calls_that_may_fail(), waits) << name << " " << durable;
+    EXPECT_EQ(Words(writer.Seen->Said), "");
+  };
+  expectWaits("one", ToWriter::DURABLE_AUTOMATIC, 2);
+  expectWaits("one", ToWriter::DURABLE_ON, 2);
+  expectWaits("one", ToWriter::DURABLE_OFF, 0);
+  expectWaits("many_*", ToWriter::DURABLE_AUTOMATIC, 0);
+  expectWaits("many_*", ToWriter::DURABLE_ON, 2);
+  expectWaits("many_*", ToWriter::DURABLE_OFF, 0);
+  Watched<ToWriter> writer;
+  writer->SetDurable(3);
+  EXPECT_EQ(writer->GetDurable(), ToWriter::DURABLE_AUTOMATIC);
+  EXPECT_NE(Words(writer.Seen->Said).find("expected Durable"), std::string::npos);
+}
 }
 
 TEST(FailingClasses, DumpReaderOfText)
@@ -305,16 +337,19 @@ TEST(FailingClasses, DumpWriter)
   TryWriter<vtkGranularDumpReader, vtkGranularDumpWriter>("plain.dump", "new.dump", true);
   TryWriter<vtkGranularDumpReader, vtkGranularDumpWriter>("chain.dump", "new.bin");
   TryWriter<vtkGranularDumpReader, vtkGranularDumpWriter>("chain.dump", "new.dump.gz");
+  TryDurable<vtkGranularDumpReader, vtkGranularDumpWriter>("chain.dump", ".dump");
 }
 
 TEST(FailingClasses, LocalWriter)
 {
   TryWriter<vtkGranularLocalReader, vtkGranularLocalWriter>("local/contacts.dump", "new.bonds");
+  TryDurable<vtkGranularLocalReader, vtkGranularLocalWriter>("local/contacts.dump", ".bonds");
 }
 
 TEST(FailingClasses, EulerWriter)
 {
   TryWriter<vtkGranularEulerReader, vtkGranularEulerWriter>("euler_1000.vtk", "new.euler");
+  TryDurable<vtkGranularEulerReader, vtkGranularEulerWriter>("euler_1000.vtk", ".euler");
 }
 
 TEST(FailingClasses, DecompositionWriter)
@@ -323,4 +358,6 @@ TEST(FailingClasses, DecompositionWriter)
     "decomposition_1000.vtk", "new.decomposition");
   TryWriter<vtkGranularDecompositionReader, vtkGranularDecompositionWriter>(
     "decomposition_1000.vtk", "new.vtu");
+  TryDurable<vtkGranularDecompositionReader, vtkGranularDecompositionWriter>(
+    "decomposition_1000.vtk", ".decomposition");
 }

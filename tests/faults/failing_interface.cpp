@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every call of the system that a reader and each writer of granular.h make fails in turn, with each fault. The reference is the run
-// in which none does. Other readers: failing_reads.cpp.
+// Every call of the system that each writer of granular.h makes fails in turn, with each fault. The reference is the run in which
+// none does. Readers: failing_reads.cpp.
 #include "../support/dumps.h"
 #include "failing_cases.h"
 #include "runs.h"
@@ -21,15 +21,13 @@ constexpr long most_of_large = 2;   ///< in files that take long
 struct Result
 {
   granular_status status = GRANULAR_OK;
-  std::string error;   ///< its message
-  std::string content; ///< of all that was read
-  std::string notices; ///< of files that cannot be read, among others
+  std::string error; ///< its message
 };
 
 Result result_of(granular_status status)
 {
   stop_failing();
-  return { status, status == GRANULAR_OK ? "" : message(), "", "" };
+  return { status, status == GRANULAR_OK ? "" : message() };
 }
 
 void expect_named(const FailingCase& one, const Result& result, const std::string& folder)
@@ -39,27 +37,6 @@ void expect_named(const FailingCase& one, const Result& result, const std::strin
     result.error.find(folder) != std::string::npos)
     << result.error;
   EXPECT_TRUE(result.status == GRANULAR_OK || !result.error.empty());
-}
-
-Result read_all(const FailingCalls& calls)
-{
-  std::string content;
-  std::string notices;
-  content.reserve(std::size_t{ 1 } << 22); // the test takes no memory while memory is refused
-  notices.reserve(std::size_t{ 1 } << 16);
-  granular_open_options options = options_of(GRANULAR_KIND_AUTOMATIC, 2);
-  options.notice = [](const char* text, void* user)
-  { static_cast<std::string*>(user)->append(text).append("\n"); };
-  options.user = &notices;
-  const std::string pattern = good("plain.dump");
-  make_fail(calls);
-  const granular_status status = visit(pattern.c_str(), options,
-    [&](const void* bytes, std::size_t count)
-    { content.append(static_cast<const char*>(bytes), count); });
-  Result result = result_of(status);
-  result.content = content;
-  result.notices = notices;
-  return result;
 }
 
 /// A file to write, from a file of a real run.
@@ -184,32 +161,6 @@ std::string name_of(const ::testing::TestParamInfo<Target>& info)
   std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
   return name;
 }
-}
-
-TEST(FailingReader, NamesTheFileOrReadsItAll)
-{
-  const std::string folder = good("");
-  const Result whole = read_all({});
-  ASSERT_EQ(whole.error, "");
-  ASSERT_FALSE(whole.content.empty());
-  FaultCount faults;
-  for (const FailingCase& one : reader_cases)
-  {
-    const auto use = [&](long number)
-    {
-      const Result result = read_all(failing_calls_of(one, number, folder));
-      const long possible = calls_that_may_fail();
-      expect_named(one, result, folder);
-      const bool same = result.content == whole.content && result.notices == whole.notices;
-      const bool told = !one.harmless &&
-        (result.status != GRANULAR_OK || result.notices.size() > whole.notices.size());
-      EXPECT_TRUE(same || told) << result.notices;
-      EXPECT_TRUE(read_all({}).content == whole.content);
-      return possible;
-    };
-    const long most = of_memory(one) ? most_of_memory : 0;
-    expect_delivered(one.name, fail_each(one.name, most, faults, use));
-  }
 }
 
 TEST_P(FailingWriter, LeavesTheOldFileOrTheNewOne)

@@ -76,49 +76,46 @@ void visit_values(const granular_array& array, const Add& add)
   }
 }
 
-/// Reads all frames and arrays of a run. Needs no memory but that of the interface, which lets no exception out.
-template <class Add>
-granular_status visit(
-  const char* pattern, const granular_open_options& options, const Add& add) noexcept
+/// Calls use(frame) for each frame of a run, or for each of its tables, until one fails. Needs no memory but that of the interface,
+/// which lets no exception out.
+template <class Use>
+granular_status for_each_frame(
+  granular_run* run, granular_request request, bool all_tables, const Use& use) noexcept
 {
-  granular_run* opened = nullptr;
-  if (const granular_status status = granular_open(&pattern, 1, &options, &opened))
-  {
-    return status;
-  }
-  const RunHandle run(opened, granular_close);
   granular_run_facts facts = {};
-  if (const granular_status status = granular_run_info(opened, &facts))
-  {
-    return status;
-  }
-  granular_request request;
-  granular_request_init(&request);
-  request.threads = options.threads;
-  for (std::int64_t number = 0; number < facts.frames; ++number)
+  granular_status status = granular_run_info(run, &facts);
+  const int tables = all_tables ? facts.tables : 1;
+  for (std::int64_t i = 0; status == GRANULAR_OK && i < facts.frames * tables; ++i)
   {
     granular_frame* read = nullptr;
-    if (const granular_status status = granular_read(opened, number, &request, &read))
-    {
-      return status;
-    }
+    request.table = static_cast<int>(i % tables);
+    status = granular_read(run, i / tables, &request, &read);
     const FrameHandle frame(read, granular_release);
+    status = status == GRANULAR_OK ? use(read) : status;
+  }
+  return status;
+}
+
+/// Reads all arrays of all frames of a run, as above; not headers, where timesteps of some kinds are from the names of files.
+template <class Add>
+granular_status visit(granular_run* run, const granular_request& request, const Add& add) noexcept
+{
+  const auto visit_frame = [&](const granular_frame* frame)
+  {
     granular_frame_header header = {};
-    if (const granular_status status = granular_header(read, &header))
-    {
-      return status; // timesteps of some kinds are in the names
-    }
-    for (std::size_t i = 0; i < header.arrays; ++i)
+    granular_status status = granular_header(frame, &header);
+    for (std::size_t i = 0; status == GRANULAR_OK && i < header.arrays; ++i)
     {
       granular_array array = {};
-      if (const granular_status status = granular_array_at(read, i, &array))
+      status = granular_array_at(frame, i, &array);
+      if (status == GRANULAR_OK)
       {
-        return status;
+        visit_values(array, add);
       }
-      visit_values(array, add);
     }
-  }
-  return GRANULAR_OK;
+    return status;
+  };
+  return for_each_frame(run, request, true, visit_frame);
 }
 
 inline granular_open_options options_of(granular_kind kind, int threads)
@@ -128,6 +125,25 @@ inline granular_open_options options_of(granular_kind kind, int threads)
   options.kind = kind;
   options.threads = threads;
   return options;
+}
+
+inline granular_request request_of(int threads)
+{
+  granular_request request;
+  granular_request_init(&request);
+  request.threads = threads;
+  return request;
+}
+
+/// Opens a run and reads it, as above.
+template <class Add>
+granular_status visit(
+  const char* pattern, const granular_open_options& options, const Add& add) noexcept
+{
+  granular_run* opened = nullptr;
+  const granular_status status = granular_open(&pattern, 1, &options, &opened);
+  const RunHandle run(opened, granular_close);
+  return status == GRANULAR_OK ? visit(opened, request_of(options.threads), add) : status;
 }
 
 /// Returns the values of all frames and arrays of a run.
@@ -150,11 +166,6 @@ inline granular_status convert_file(const char* from, const char* to, int thread
     return status;
   }
   const RunHandle run(opened, granular_close);
-  granular_run_facts facts = {};
-  if (const granular_status status = granular_run_info(opened, &facts))
-  {
-    return status;
-  }
   granular_format format;
   granular_format_init(&format);
   format.threads = threads;
@@ -163,20 +174,12 @@ inline granular_status convert_file(const char* from, const char* to, int thread
   {
     return status;
   }
-  granular_request request;
-  granular_request_init(&request);
-  request.threads = threads;
-  for (std::int64_t number = 0; number < facts.frames; ++number)
+  const granular_status status = for_each_frame(opened, request_of(threads), false,
+    [&](const granular_frame* frame) { return granular_write_frame(writer, frame); });
+  if (status != GRANULAR_OK)
   {
-    granular_frame* read = nullptr;
-    granular_status status = granular_read(opened, number, &request, &read);
-    const FrameHandle frame(read, granular_release);
-    status = status == GRANULAR_OK ? granular_write_frame(writer, read) : status;
-    if (status != GRANULAR_OK)
-    {
-      granular_abandon(writer);
-      return status;
-    }
+    granular_abandon(writer); // which keeps the last error
+    return status;
   }
   return granular_finish(writer);
 }
