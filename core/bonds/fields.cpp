@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fields.h"
+#include "packing.h"
 
 #include "id_numbers.h"
 
@@ -26,18 +26,7 @@ constexpr std::size_t doubles_of(BondField field) noexcept
 template <BondField field>
 auto* array_of(const granular_bonds_arrays& arrays) noexcept
 {
-  // clang-format off
-  if constexpr (field == X) { return arrays.x; }
-  else if constexpr (field == V) { return arrays.v; }
-  else if constexpr (field == F) { return arrays.f; }
-  else if constexpr (field == XMol) { return arrays.x_mol; }
-  else if constexpr (field == VMol) { return arrays.v_mol; }
-  else if constexpr (field == Tag) { return arrays.tag; }
-  else if constexpr (field == Molecule) { return arrays.molecule; }
-  else if constexpr (field == Type) { return arrays.type; }
-  else if constexpr (field == Mask) { return arrays.mask; }
-  else { return arrays.image; }
-  // clang-format on
+  return arrays.*std::get<static_cast<std::size_t>(field)>(bond_arrays);
 }
 
 /// Returns the 32-bit integer that the double holds; an arbitrary integer if the double holds none. Adding the bias puts the

@@ -3,11 +3,66 @@
 #ifndef granular_bonds_packing_h
 #define granular_bonds_packing_h
 
-#include "fields.h"
+#include "particles.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 
 namespace granular
 {
-// messages of a fixed number of doubles for each particle, by a kind of granular_bonds.h
+/// Rows `first`, first + 1, ... or, with a list, list[first], list[first + 1], ...
+struct BondRows
+{
+  std::size_t first = 0;
+  std::size_t count = 0;
+  const std::int32_t* list = nullptr;
+
+  std::size_t operator[](std::size_t i) const noexcept
+  {
+    return list != nullptr ? static_cast<std::size_t>(list[first + i]) : first + i;
+  }
+};
+
+/// The fields that a routine of the atom style bond/gran sends for a particle, as functions in which they are unrolled.
+struct BondMessage
+{
+  std::size_t doubles;      ///< of a particle
+  std::uint32_t set;        ///< of its fields
+  std::size_t velocity = 0; ///< the position of v; 0: it is not sent
+
+  /// Writes some rows. Throws LimitError for an image count beyond 21 bits.
+  void (*put)(const granular_bonds_arrays& arrays, const BondRows& rows, double* to);
+
+  /// Throws FormatError for a type, mask or image that is none, in `count` particles of a buffer from the double `place` on; the
+  /// first of them is called `particle`.
+  void (*check)(
+    std::span<const double> buffer, std::size_t place, std::size_t particle, std::size_t count);
+
+  /// Reads what has been checked into consecutive rows.
+  void (*get)(const granular_bonds_arrays& arrays, std::size_t first, std::size_t count,
+    const double* from) noexcept;
+};
+
+/// Returns the message of a kind of granular_bonds.h.
+const BondMessage& message_of(int kind);
+
+constexpr int routine_of(int kind) noexcept
+{
+  return kind & ~GRANULAR_BONDS_WITH_BONDS;
+}
+
+bool is_int32(double number) noexcept;
+
+/// Throws FormatError: expected something else in a double of a buffer.
+[[noreturn]] void refuse_number(
+  const std::string& expected, std::size_t particle, std::size_t at, double got);
+
+/// Returns the place for a message: "in double 3 of the buffer, of its particle 0".
+std::string buffer_place(std::size_t particle, std::size_t at);
+
+// messages, by a kind of granular_bonds.h
 
 std::size_t packed_doubles(const BondedParticles& particles, int kind, const BondRows& rows);
 void pack(const BondedParticles& particles, int kind, const BondRows& rows,
@@ -16,15 +71,6 @@ void pack(const BondedParticles& particles, int kind, const BondRows& rows,
 /// Returns the number of particles.
 std::size_t unpack(BondedParticles& particles, int kind, std::size_t first,
   const std::int32_t* list, std::span<const double> buffer);
-
-// records of particles that change their rank
-
-std::size_t exchange_doubles(
-  const BondedParticles& particles, const BondMessage& message, const BondRows& rows);
-void pack_exchange(const BondedParticles& particles, const BondMessage& message,
-  const BondRows& rows, double* buffer);
-std::size_t unpack_exchange(
-  BondedParticles& particles, const BondMessage& message, std::span<const double> buffer);
 
 // records of restart files
 

@@ -55,21 +55,11 @@ BondedParticles::BondedParticles(std::int32_t most_bonds, std::int32_t history_v
 template <class Visit>
 void BondedParticles::for_arrays(const Visit& visit) const
 {
-  using Arrays = granular_bonds_arrays;
-  for (const auto array : { &Arrays::x, &Arrays::v, &Arrays::f, &Arrays::x_mol, &Arrays::v_mol })
-  {
-    visit(array, 3);
-  }
-  visit(&Arrays::tag, 1);
-  visit(&Arrays::molecule, 1);
   const std::size_t bonds = this->most_bonds();
-  visit(&Arrays::partners, bonds);
-  visit(&Arrays::history, bonds * this->history_values());
-  visit(&Arrays::type, 1);
-  visit(&Arrays::mask, 1);
-  visit(&Arrays::image, 3);
-  visit(&Arrays::bonds, 1);
-  visit(&Arrays::bond_types, bonds);
+  const std::size_t widths[] = { 3, 3, 3, 3, 3, 1, 1, bonds, bonds * this->history_values(), 1, 1,
+    3, 1, bonds };
+  const std::size_t* width = widths;
+  std::apply([&](auto... array) { (visit(array, *width++), ...); }, bond_arrays);
 }
 
 std::size_t BondedParticles::row_bytes() const noexcept

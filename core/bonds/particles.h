@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <tuple>
 
 namespace granular
 {
@@ -36,6 +37,14 @@ enum class BondField : std::uint8_t
   Bonds, ///< how many
   BondTypes
 };
+
+/// The arrays by BondField.
+inline constexpr std::tuple bond_arrays = { &granular_bonds_arrays::x, &granular_bonds_arrays::v,
+  &granular_bonds_arrays::f, &granular_bonds_arrays::x_mol, &granular_bonds_arrays::v_mol,
+  &granular_bonds_arrays::tag, &granular_bonds_arrays::molecule, &granular_bonds_arrays::partners,
+  &granular_bonds_arrays::history, &granular_bonds_arrays::type, &granular_bonds_arrays::mask,
+  &granular_bonds_arrays::image, &granular_bonds_arrays::bonds,
+  &granular_bonds_arrays::bond_types };
 
 /// A bit for each of some fields.
 template <class... Fields>

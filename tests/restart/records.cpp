@@ -4,7 +4,7 @@
 #include "shared_file.h"
 
 #include "granular/dump/read/dump_reader.h"
-#include "granular/restart/restart_styles.h"
+#include "granular/restart/record_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 
 #include "granular/common/error.h"
 #include "granular/local/id_finder.h"
-#include "granular/local/ids.h"
 #include "granular/parallel/gather.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/point_forms.h"

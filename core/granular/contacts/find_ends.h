@@ -9,7 +9,6 @@
 #include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
 #include "granular/local/minimum_image.h"
-#include "granular/local/particle_values.h"
 #include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"

@@ -30,14 +30,6 @@ namespace
 {
 const std::vector<std::string> bond_columns = { "bond_id", "btype", "id1", "id2" };
 
-/// Array by its name; null: there is none.
-DumpArray* find_array(DumpFrame& frame, std::string_view name)
-{
-  const auto found = std::ranges::find_if(
-    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
-  return found == frame.arrays.end() ? nullptr : &*found;
-}
-
 template <class Value>
 std::span<const Value> values_of(const DumpArray& array)
 {
@@ -217,12 +209,23 @@ private:
     std::int64_t joined = join_section(
       frame, table, frame.schema, *source_, { name, *section, of_all }, own_.pool, ranks_);
     ranks_.sum({ &joined, 1 });
-    if (joined < section->rows && !this->is_filtered())
+    if (!this->is_filtered())
     {
-      notices_.push_back({ { source_->path(), section->name_line },
+      this->note(section,
         "rows of the section " + std::string(name) +
-          " that are left out, as their particle is not there: " +
-          std::to_string(section->rows - joined) });
+          " that are left out, as their particle is not there",
+        section->rows - joined);
+    }
+  }
+
+  /// Adds a notice about a section if the count is not 0.
+  void note(
+    const std::optional<DataSection>& section, const std::string& of_what, std::int64_t count)
+  {
+    if (section && count > 0)
+    {
+      notices_.push_back(
+        { { source_->path(), section->name_line }, of_what + ": " + std::to_string(count) });
     }
   }
 
@@ -259,8 +262,12 @@ private:
     {
       keep_found(table, joined);
     }
-    this->note_bonds(joined);
-    this->note_repeated(joined, frame.particles.schema);
+    if (joined.missing > 0 && !this->is_filtered())
+    {
+      this->note(layout_->bond_rows,
+        "bonds that are left out, as a particle of theirs is not there", joined.missing);
+    }
+    this->note_repeated(joined.repeated, frame.particles.schema);
     progress_.set_part(0.9, 1);
     this->make_bond_lines(frame.bonds, joined);
     std::erase_if(table.arrays,
@@ -272,37 +279,14 @@ private:
   bool is_filtered() const { return own_.stride > 1 || restricts(own_.region); }
 
   /// Says what particles share that have one id.
-  void note_repeated(const JoinedLines& joined, const ColumnSchema& schema)
+  void note_repeated(std::int64_t repeated, const ColumnSchema& schema)
   {
-    const auto note = [&](const std::optional<DataSection>& section, const char* what)
-    {
-      if (section && joined.repeated > 0)
-      {
-        notices_.push_back({ { source_->path(), section->name_line },
-          std::string("particles that have the id of another one, ") + what + ": " +
-            std::to_string(joined.repeated) });
-      }
-    };
+    const std::string what = "particles that have the id of another one, ";
     if (this->wants_velocities(schema))
     {
-      note(layout_->velocities, "and its velocity");
+      this->note(layout_->velocities, what + "and its velocity", repeated);
     }
-    note(layout_->bond_rows, "where bonds end at the first that has it");
-  }
-
-  void note_bonds(const JoinedLines& joined)
-  {
-    if (!layout_->bond_rows)
-    {
-      return;
-    }
-    const Where where{ source_->path(), layout_->bond_rows->name_line };
-    if (joined.missing > 0 && !this->is_filtered())
-    {
-      notices_.push_back({ where,
-        "bonds that are left out, as a particle of theirs is not there: " +
-          std::to_string(joined.missing) });
-    }
+    this->note(layout_->bond_rows, what + "where bonds end at the first that has it", repeated);
   }
 
   /// Lines between the ends that were found, of this rank's piece.

@@ -19,7 +19,7 @@ namespace granular
 {
 namespace
 {
-using Ids = std::span<const std::int64_t>;
+using IdSpan = std::span<const std::int64_t>;
 
 const DumpArray& array_of(const DumpFrame& frame, std::string_view name)
 {
@@ -27,7 +27,7 @@ const DumpArray& array_of(const DumpFrame& frame, std::string_view name)
     frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
 }
 
-Ids ids_of(const DumpFrame& frame)
+IdSpan ids_of(const DumpFrame& frame)
 {
   return { static_cast<const std::int64_t*>(array_of(frame, "id").block.data()),
     static_cast<std::size_t>(frame.rows) };
@@ -94,7 +94,7 @@ std::int64_t join_section(DumpFrame& particles, const DumpFrame& table, const Co
   Communicator& ranks)
 {
   const bool alone = ranks.size() == 1;
-  const Ids wanted = ids_of(particles);
+  const IdSpan wanted = ids_of(particles);
   const ParticleValues own = values_of(table);
   FetchedParticles fetched;
   if (!alone)
@@ -102,7 +102,7 @@ std::int64_t join_section(DumpFrame& particles, const DumpFrame& table, const Co
     fetched = fetch_particles({ ids_of(table), nullptr, own }, wanted, wanted, ranks);
   }
   const ParticleValues& values = alone ? own : fetched.values;
-  const IdFinder finder(alone ? ids_of(table) : Ids(fetched.ids));
+  const IdFinder finder(alone ? ids_of(table) : IdSpan(fetched.ids));
   std::int64_t repeated = alone ? finder.repeated() : fetched.repeated;
   ranks.sum({ &repeated, 1 });
   if (repeated > 0)

@@ -2,15 +2,43 @@
 #ifndef granular_data_file_section_rows_h
 #define granular_data_file_section_rows_h
 
+#include "granular/bytes/byte_source.h"
 #include "granular/data_file/data_layout.h"
-#include "granular/data_file/uncommented.h"
 #include "granular/frames/run_index.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace granular
 {
+/// A byte source in which each comment, from # to the end of the line, is blank. The underlying source must outlive it.
+class Uncommented final : public ByteSource
+{
+public:
+  /// begin: the start of a line; no byte before it is read.
+  Uncommented(const ByteSource& source, std::int64_t begin)
+    : source_(source)
+    , begin_(begin)
+  {
+  }
+
+  const std::string& path() const override { return source_.path(); }
+  FileStamp stamp() const override { return source_.stamp(); }
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override;
+  double fraction(std::int64_t offset) const override { return source_.fraction(offset); }
+  bool compressed() const override { return source_.compressed(); }
+  bool concurrent() const override { return source_.concurrent(); }
+  std::string unchecked() const override { return source_.unchecked(); }
+
+private:
+  bool is_comment(std::int64_t offset) const;
+
+  const ByteSource& source_;
+  std::int64_t begin_;
+};
+
 /// Presents the rows of a section of a data file as the rows of a frame without a header, for read_dump. The file and
 /// the source must outlive this object.
 class SectionRows

@@ -5,7 +5,7 @@
 #include "granular/common/words.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/numbers/number.h"
-#include "granular/vtk_files/xml_tags.h"
+#include "granular/vtk_files/vtk_xml.h"
 
 #include <limits>
 

@@ -3,13 +3,12 @@
 
 #include "granular/local/fetch_particles.h"
 #include "granular/local/id_finder.h"
-#include "granular/local/ids.h"
-#include "granular/local/particle_values.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <numeric>
@@ -23,16 +22,6 @@ constexpr std::size_t some = 1024; // rows at once, which stay in the cache
 constexpr std::size_t rows_per_chunk = 32 * some;
 
 using Places = std::span<const std::int64_t>;
-
-/// The places of the particles at both ends of the rows where these were found, chunk by chunk: the first so many of those
-/// that the chunk has room for.
-struct FoundEnds
-{
-  Block firsts; ///< std::int64_t
-  Block seconds;
-  std::vector<std::size_t> counts;                ///< of each chunk
-  std::vector<std::vector<std::int64_t>> missing; ///< the other rows of each
-};
 
 /// The arrays of one particle array, and where they are written.
 struct EndColumn
@@ -68,68 +57,42 @@ Ids find_ids(const FrameView& particles, const Executor& executor, Progress& pro
   return array ? Ids(*array, particles.rows, executor, progress) : Ids();
 }
 
-void find_chunk(const IdFinder& finder, Places id1, Places id2, std::size_t chunk, FoundEnds& ends)
+/// Finds the places of the particles at both ends of each row. Returns how many rows lack one.
+std::size_t find_ends(const IdFinder& finder, Places id1, Places id2, std::int64_t* firsts,
+  std::int64_t* seconds, const Executor& executor, Progress& progress)
 {
-  std::array<std::int64_t, some> firsts;
-  std::array<std::int64_t, some> seconds;
-  const std::size_t begin = chunk * rows_per_chunk;
-  const std::size_t end = std::min(begin + rows_per_chunk, id1.size());
-  std::int64_t* const found_firsts = static_cast<std::int64_t*>(ends.firsts.data()) + begin;
-  std::int64_t* const found_seconds = static_cast<std::int64_t*>(ends.seconds.data()) + begin;
-  std::size_t found = 0;
-  for (std::size_t row = begin; row < end; row += some)
-  {
-    const std::size_t count = std::min(some, end - row);
-    finder.find(id1.subspan(row, count), firsts.data());
-    finder.find(id2.subspan(row, count), seconds.data());
-    for (std::size_t i = 0; i < count; ++i)
+  std::atomic<std::size_t> missing = 0;
+  executor.for_each_stretch(
+    id1.size(), rows_per_chunk,
+    [&](std::size_t row, std::size_t count, std::size_t)
     {
-      if (firsts[i] == IdFinder::nowhere || seconds[i] == IdFinder::nowhere)
+      finder.find(id1.subspan(row, count), firsts + row);
+      finder.find(id2.subspan(row, count), seconds + row);
+      std::size_t here = 0;
+      for (const std::size_t last = row + count; row < last; ++row)
       {
-        ends.missing[chunk].push_back(static_cast<std::int64_t>(row + i));
-        continue;
+        here += firsts[row] == IdFinder::nowhere || seconds[row] == IdFinder::nowhere ? 1 : 0;
       }
-      found_firsts[found] = firsts[i];
-      found_seconds[found++] = seconds[i];
-    }
-  }
-  ends.counts[chunk] = found;
-}
-
-FoundEnds find_ends(const IdFinder& finder, Places id1, Places id2, const JoinRequest& request,
-  const Executor& executor, Progress& progress)
-{
-  const std::size_t bytes = id1.size() * sizeof(std::int64_t);
-  const std::size_t chunks = (id1.size() + rows_per_chunk - 1) / rows_per_chunk;
-  FoundEnds ends{ Block(bytes, request.pool), Block(bytes, request.pool),
-    std::vector<std::size_t>(chunks), std::vector<std::vector<std::int64_t>>(chunks) };
-  executor.parallel_for(
-    chunks, [&](std::size_t chunk, std::size_t) { find_chunk(finder, id1, id2, chunk, ends); },
+      missing += here;
+    },
     progress);
-  return ends;
+  return missing;
 }
 
-/// Returns, of so many rows, those that are not missing, as JoinedLines has them.
-std::vector<std::int64_t> list_rows(const FoundEnds& ends, std::size_t all, std::size_t found)
+/// Leaves the places of `found` of so many rows, those of which both ends were found, and returns these rows.
+std::vector<std::int64_t> keep_found(
+  std::int64_t* firsts, std::int64_t* seconds, std::size_t all, std::size_t found)
 {
   std::vector<std::int64_t> rows;
-  if (found < all)
+  rows.reserve(found);
+  for (std::size_t row = 0; row < all; ++row)
   {
-    rows.reserve(found);
-    std::int64_t row = 0;
-    const auto list_up_to = [&](std::int64_t missing)
+    if (firsts[row] != IdFinder::nowhere && seconds[row] != IdFinder::nowhere)
     {
-      for (; row < missing; ++row)
-      {
-        rows.push_back(row);
-      }
-      ++row;
-    };
-    for (const std::vector<std::int64_t>& missing : ends.missing)
-    {
-      std::ranges::for_each(missing, list_up_to);
+      firsts[rows.size()] = firsts[row];
+      seconds[rows.size()] = seconds[row];
+      rows.push_back(static_cast<std::int64_t>(row));
     }
-    list_up_to(static_cast<std::int64_t>(all));
   }
   return rows;
 }
@@ -209,38 +172,40 @@ JoinedLines join_here(const ParticleValues& particles, const IdFinder& finder, P
   Places id2, const JoinRequest& request, PartialProgress& progress)
 {
   const Executor executor(request.threads);
+  const std::size_t all = id1.size();
+  const Block places[] = { Block(all * sizeof(std::int64_t), request.pool),
+    Block(all * sizeof(std::int64_t), request.pool) };
+  auto* const firsts = static_cast<std::int64_t*>(places[0].data());
+  auto* const seconds = static_cast<std::int64_t*>(places[1].data());
   progress.set_part(0.3, 0.6);
-  const FoundEnds ends = find_ends(finder, id1, id2, request, executor, progress);
-  std::vector<std::size_t> begins(ends.counts.size());
-  std::exclusive_scan(ends.counts.begin(), ends.counts.end(), begins.begin(), std::size_t{ 0 });
-  const std::size_t count = begins.empty() ? 0 : begins.back() + ends.counts.back();
+  const std::size_t missing = find_ends(finder, id1, id2, firsts, seconds, executor, progress);
+  const std::size_t count = all - missing;
   JoinedLines lines;
   lines.count = static_cast<std::int64_t>(count);
-  lines.rows = list_rows(ends, id1.size(), count);
-  lines.missing = static_cast<std::int64_t>(id1.size() - count);
+  lines.missing = static_cast<std::int64_t>(missing);
+  if (missing > 0)
+  {
+    lines.rows = keep_found(firsts, seconds, all, count);
+  }
   const std::size_t bytes = count * 3 * sizeof(double);
   lines.first = Block(bytes, request.pool);
   lines.second = Block(bytes, request.pool);
   const std::vector<EndColumn> columns = make_arrays(particles, request, lines);
-  const auto places_of = [](const Block& block)
-  { return Places(static_cast<const std::int64_t*>(block.data()), block.bytes() / 8); };
   progress.set_part(0.6, 1);
-  executor.parallel_for(
-    begins.size(),
-    [&](std::size_t chunk, std::size_t)
+  executor.for_each_stretch(
+    count, rows_per_chunk,
+    [&](std::size_t line, std::size_t lines_here, std::size_t)
     {
-      for (std::size_t done = 0; done < ends.counts[chunk]; done += some)
+      for (const std::size_t last = line + lines_here; line < last; line += some)
       {
-        const std::size_t from = chunk * rows_per_chunk + done;
-        const std::size_t now = std::min(some, ends.counts[chunk] - done);
-        const std::size_t to = begins[chunk] + done;
-        const Places firsts = places_of(ends.firsts).subspan(from, now);
-        const Places seconds = places_of(ends.seconds).subspan(from, now);
-        gather_points(particles, firsts, static_cast<double*>(lines.first.data()) + 3 * to);
-        gather_points(particles, seconds, static_cast<double*>(lines.second.data()) + 3 * to);
+        const std::size_t now = std::min(some, last - line);
+        const Places first = { firsts + line, now };
+        const Places second = { seconds + line, now };
+        gather_points(particles, first, static_cast<double*>(lines.first.data()) + 3 * line);
+        gather_points(particles, second, static_cast<double*>(lines.second.data()) + 3 * line);
         for (const EndColumn& column : columns)
         {
-          gather_column(column, firsts, seconds, to);
+          gather_column(column, first, second, line);
         }
       }
     },

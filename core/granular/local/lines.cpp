@@ -2,12 +2,12 @@
 #include "granular/local/lines.h"
 
 #include "granular/local/minimum_image.h"
-#include "granular/local/split_line.h"
 #include "granular/parallel/executor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace granular
 {
@@ -46,11 +46,11 @@ public:
     if (this->splits())
     {
       part.set_part(0, 0.4);
-      this->for_chunks(part, [this](std::size_t chunk) { this->count(chunk); });
+      this->for_chunks(part, &LineMaker::count);
       part.set_part(0.4, 1);
     }
     this->make_room();
-    this->for_chunks(part, [this](std::size_t chunk) { this->fill(chunk); });
+    this->for_chunks(part, &LineMaker::fill);
     for (const Counts& chunk : counts_)
     {
       lines_.moved += chunk.moved;
@@ -64,7 +64,7 @@ private:
   /// Counts of a chunk of rows.
   struct Counts
   {
-    std::size_t lines = 0;
+    std::size_t more = 0; ///< lines than rows
     std::size_t first_line = 0;
     std::int64_t moved = 0;
   };
@@ -74,17 +74,15 @@ private:
     return request_.periodic == PeriodicLines::Split && images_.is_periodic();
   }
 
-  template <class Task>
-  void for_chunks(Progress& progress, const Task& task)
-  {
-    executor_.parallel_for(
-      counts_.size(), [&](std::size_t chunk, std::size_t) { task(chunk); }, progress);
-  }
+  using Task = void (LineMaker::*)(std::size_t row, std::size_t end, Counts& counts);
 
-  /// The row after the last one of a chunk.
-  std::size_t end_of(std::size_t chunk) const noexcept
+  void for_chunks(Progress& progress, Task task)
   {
-    return std::min((chunk + 1) * rows_a_chunk, rows_);
+    executor_.for_each_stretch(
+      rows_, rows_a_chunk,
+      [&](std::size_t row, std::size_t count, std::size_t)
+      { (this->*task)(row, row + count, counts_[row / rows_a_chunk]); },
+      progress);
   }
 
   static Vector3 point_of(std::span<const double> points, std::size_t row) noexcept
@@ -97,49 +95,43 @@ private:
     return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
   }
 
-  void count(std::size_t chunk)
+  void count(std::size_t row, std::size_t end, Counts& chunk)
   {
-    const std::size_t begin = chunk * rows_a_chunk;
-    const std::size_t end = this->end_of(chunk);
-    std::size_t lines = end - begin;
+    std::size_t more = 0;
     Parts parts;
-    for (std::size_t row = begin; row < end; ++row)
+    for (; row < end; ++row)
     {
       const Vector3 first = point_of(first_, row);
       const Vector3 second = point_of(second_, row);
       const BoxCounts counts = images_.find(difference(second, first));
-      if (counts != BoxCounts{})
-      {
-        lines += splitter_.split(first, second, counts, parts) - 1;
-      }
+      more += counts == BoxCounts{} ? 0 : splitter_.split(first, second, counts, parts) - 1;
     }
-    counts_[chunk].lines = lines;
+    chunk.more = more;
   }
 
   void make_room()
   {
-    std::size_t lines = 0;
+    std::size_t more = 0;
     for (std::size_t chunk = 0; chunk < counts_.size(); ++chunk)
     {
-      Counts& counts = counts_[chunk];
-      counts.lines = this->splits() ? counts.lines : this->end_of(chunk) - chunk * rows_a_chunk;
-      counts.first_line = lines;
-      lines += counts.lines;
+      counts_[chunk].first_line = chunk * rows_a_chunk + more;
+      more += counts_[chunk].more;
     }
+    const std::size_t lines = rows_ + more;
     lines_.count = static_cast<std::int64_t>(lines);
     lines_.points = Block(lines * 2 * sizeof(Vector3), request_.pool);
     lines_.lengths = Block(rows_ * sizeof(double), request_.pool);
     lines_.rows.resize(lines == rows_ ? 0 : lines);
   }
 
-  void fill(std::size_t chunk)
+  void fill(std::size_t row, std::size_t end, Counts& chunk)
   {
     auto* const lengths = static_cast<double*>(lines_.lengths.data());
-    auto* part = static_cast<LinePart*>(lines_.points.data()) + counts_[chunk].first_line;
-    std::size_t line = counts_[chunk].first_line;
+    std::size_t line = chunk.first_line;
+    auto* part = static_cast<LinePart*>(lines_.points.data()) + line;
     std::int64_t moved = 0;
     Parts parts;
-    for (std::size_t row = chunk * rows_a_chunk; row < this->end_of(chunk); ++row)
+    for (; row < end; ++row)
     {
       const Vector3 first = point_of(first_, row);
       const Vector3 second = point_of(second_, row);
@@ -164,15 +156,12 @@ private:
         ++moved;
       }
       part = std::copy_n(parts.begin(), made, part);
-      for (; made > 0; --made, ++line)
+      for (; made > 0 && !lines_.rows.empty(); --made)
       {
-        if (!lines_.rows.empty())
-        {
-          lines_.rows[line] = static_cast<std::int64_t>(row);
-        }
+        lines_.rows[line++] = static_cast<std::int64_t>(row);
       }
     }
-    counts_[chunk].moved = moved;
+    chunk.moved = moved;
   }
 
   std::span<const double> first_;
@@ -185,6 +174,102 @@ private:
   std::vector<Counts> counts_; ///< of each chunk
   Lines lines_;
 };
+}
+
+LineSplitter::LineSplitter(const Box& box, const MinimumImage& images, const Vector3& point_origin)
+  : box_(box)
+  , images_(images)
+  , point_origin_(point_origin)
+{
+  std::vector<Vector3> vectors;
+  std::vector<std::size_t> axes;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (has_length(box.vectors[i]))
+    {
+      vectors.push_back(values_of(box.vectors[i]));
+      axes.push_back(i);
+    }
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i)
+  {
+    normals_[axes[i]] = own_part(vectors, i);
+  }
+}
+
+/// whole: from first to the image of second.
+LineSplitter::Crossing LineSplitter::find_crossing(std::size_t axis, bool upper,
+  const Vector3& first, const Vector3& second, const Vector3& whole) const noexcept
+{
+  const Vector3& normal = normals_[axis];
+  const auto up = [&](std::size_t of) { return upper && of == axis ? 1 : 0; };
+  const Vector3 to_face = box_.corner(up(0), up(1), up(2), first);
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    size += std::abs(normal[i]) * std::max(std::abs(first[i]), std::abs(second[i]));
+  }
+  const double length = dot(normal, whole);
+  Crossing crossing;
+  crossing.axis = axis;
+  crossing.rounding = std::abs(0x1p-50 * size / length);
+  const double place = dot(normal, to_face) / length;
+  // nothing tells where a line in the face crosses it: at its first end
+  crossing.place = place > crossing.rounding ? place : 0;
+  crossing.place = crossing.place < 1 - crossing.rounding ? crossing.place : 1;
+  return crossing;
+}
+
+std::size_t LineSplitter::split(const Vector3& first, const Vector3& second,
+  const BoxCounts& counts, std::array<LinePart, most_parts>& parts) const noexcept
+{
+  const Vector3 whole = images_.moved(second, counts, first);
+  std::array<Crossing, 3> crossings; // in their order along the line
+  std::size_t crossed = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (counts[axis] != 0)
+    {
+      const Crossing one = this->find_crossing(axis, counts[axis] > 0, first, second, whole);
+      std::size_t at = crossed++;
+      for (; at > 0 && crossings[at - 1].place > one.place; --at)
+      {
+        crossings[at] = crossings[at - 1];
+      }
+      crossings[at] = one;
+    }
+  }
+
+  BoxCounts of_first = {};      // how many vectors the first end is moved by
+  BoxCounts of_second = counts; // and the second one
+  const auto point_at = [&](double place)
+  {
+    Vector3 point = first;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      point[i] += place * whole[i];
+    }
+    return place == 1 ? images_.moved(second, of_second, point_origin_)
+                      : images_.moved(point, of_first, point_origin_);
+  };
+  std::size_t count = 0;
+  double from = 0;
+  for (std::size_t i = 0; i < crossed; ++i)
+  {
+    const auto& [place, rounding, axis] = crossings[i];
+    if (place - from > rounding)
+    {
+      parts[count++] = { point_at(from), point_at(place) };
+      from = place;
+    }
+    of_first[axis] = -counts[axis];
+    of_second[axis] = 0;
+  }
+  if (count == 0 || from < 1)
+  {
+    parts[count++] = { point_at(from), point_at(1) };
+  }
+  return count;
 }
 
 Lines make_lines(std::span<const double> first, std::span<const double> second, const Box& box,

@@ -6,6 +6,8 @@
 #include "granular/parallel/gather.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -32,13 +34,6 @@ ColumnSchema schema_for(const std::vector<std::string>& names, const ColumnSchem
   }
   schema.set_types(texts);
   return schema;
-}
-
-DumpArray* find_array(DumpFrame& frame, std::string_view name)
-{
-  const auto found = std::ranges::find_if(
-    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
-  return found == frame.arrays.end() ? nullptr : &*found;
 }
 
 template <class Value>
@@ -198,40 +193,34 @@ void drop_unwanted(const LocalRequest& request, DumpFrame& frame)
     frame.arrays, [&](const DumpArray& array) { return !is_wanted(wanted, array.info); });
 }
 
-/// Remarks about rows, of a rank or of all.
-struct Remarks
+/// Says how many ids were rounded, and how many of all rows have another length than the file says.
+void note_rows(
+  std::int64_t rows, std::int64_t rounded, std::int64_t misfits, Where where, Notices& notices)
 {
-  std::int64_t rows = 0;
-  std::int64_t rounded = 0;
-  std::int64_t misfits = 0;
-
-  void add(const Remarks& more)
+  if (rounded > 0)
   {
-    rows += more.rows;
-    rounded += more.rounded;
-    misfits += more.misfits;
+    where.column = "id1 and id2";
+    notices.push_back({ where,
+      std::to_string(rounded) +
+        " ids are printed with an exponent and have lost the digits beyond six: lines of them "
+        "end at wrong particles. In the input script, dump_modify with format float %.15g, or "
+        "\"%.15g\" for each column, keeps them" });
   }
-
-  void note(Where where, Notices& notices) const
+  if (misfits > 0)
   {
-    const std::string of_rows = " of " + std::to_string(rows);
-    if (rounded > 0)
-    {
-      where.column = "id1 and id2";
-      notices.push_back({ where,
-        std::to_string(rounded) +
-          " ids are printed with an exponent and have lost the digits beyond six: lines of them "
-          "end at wrong particles. In the input script, dump_modify with format float %.15g, or "
-          "\"%.15g\" for each column, keeps them" });
-    }
-    if (misfits > 0)
-    {
-      where.column = "dist";
-      notices.push_back({ where,
-        std::to_string(misfits) + of_rows + " lines are not as long as the column dist says" });
-    }
+    where.column = "dist";
+    notices.push_back({ where,
+      std::to_string(misfits) + " of " + std::to_string(rows) +
+        " lines are not as long as the column dist says" });
   }
-};
+}
+}
+
+DumpArray* find_array(DumpFrame& frame, std::string_view name)
+{
+  const auto found = std::ranges::find_if(
+    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
+  return found == frame.arrays.end() ? nullptr : &*found;
 }
 
 bool is_end_array(std::string_view name) noexcept
@@ -307,8 +296,6 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
       forward.set_part(0, 0.8);
       local.table = read_dump(pieces, table, ranks, notices, forward);
       DumpFrame& frame = local.table;
-      Remarks remarks;
-      remarks.rows = frame.rows;
       check_flags(find_array(frame, "periodic"), where);
       forward.set_part(0.8, 0.9);
       if (local.has_lines && request.lines.periodic == PeriodicLines::Split && ranks.size() == 1)
@@ -316,7 +303,8 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         local.first_row = count_rows_before(pieces, table, forward);
       }
       forward.set_part(0.9, 1);
-      remarks.rounded = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
+      std::array<std::int64_t, 3> sums = { frame.rows, 0, 0 };
+      sums[1] = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
       if (local.has_lines)
       {
         const auto first = values_of<double>(find_array(frame, end_arrays[0]), 3);
@@ -326,17 +314,13 @@ LocalFrame read_local(const std::vector<FramePiece>& pieces, const LocalRequest&
         const std::span lengths(
           static_cast<const double*>(local.lines.lengths.data()), first.size() / 3);
         const auto dist = values_of<double>(find_array(frame, "dist"));
-        remarks.misfits = as_written ? 0 : count_misfits(lengths, dist, first, second);
+        sums[2] = as_written ? 0 : count_misfits(lengths, dist, first, second);
       }
       drop_unwanted(request, frame);
-      const std::vector<Remarks> all = gather(ranks, remarks);
-      Remarks sum;
-      for (const Remarks& of_rank : all)
-      {
-        local.first_row += &of_rank - all.data() < ranks.rank() ? of_rank.rows : 0;
-        sum.add(of_rank);
-      }
-      sum.note(where, notices);
+      const std::vector<std::int64_t> rows = gather(ranks, frame.rows);
+      local.first_row = std::accumulate(rows.begin(), rows.begin() + ranks.rank(), local.first_row);
+      ranks.sum(sums);
+      note_rows(sums[0], sums[1], sums[2], where, notices);
       return local;
     });
 }

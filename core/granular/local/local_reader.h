@@ -36,6 +36,9 @@ struct LocalFrame
     0; ///< of this part in the frame, where lines have rows of their own (Split)
 };
 
+/// Returns the array of a frame that has a name, or null.
+DumpArray* find_array(DumpFrame& frame, std::string_view name);
+
 /// Arrays that make lines, which users see as lines.
 bool is_end_array(std::string_view name) noexcept;
 

@@ -5,8 +5,6 @@
 #include "granular/local/fetch_particles.h"
 #include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
-#include "granular/local/ids.h"
-#include "granular/local/particle_values.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/displacements.h"

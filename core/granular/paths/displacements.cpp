@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/paths/displacements.h"
 
-#include "granular/local/box_vectors.h"
+#include "granular/local/minimum_image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/geometry/box.h"
-#include "granular/local/box_vectors.h"
+#include "granular/local/lines.h"
 #include "granular/local/minimum_image.h"
-#include "granular/local/split_line.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/paths.h"
 

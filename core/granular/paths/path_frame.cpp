@@ -2,9 +2,9 @@
 #include "granular/paths/path_frame.h"
 
 #include "granular/dump/read/dump_reader.h"
+#include "granular/local/fetch_particles.h"
 #include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
-#include "granular/local/ids.h"
 #include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/point_forms.h"

@@ -4,6 +4,7 @@
 
 #include "granular/bytes/byte_source.h"
 #include "granular/common/progress.h"
+#include "granular/restart/restart_bytes.h"
 #include "granular/restart/restart_header.h"
 #include "granular/restart/restart_layout.h"
 
@@ -13,6 +14,49 @@
 
 namespace granular
 {
+/// Goes from record to record, and checks whether each could be a particle.
+class RecordWalker
+{
+public:
+  RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header,
+    SearchBudget& budget, Progress& progress);
+
+  /// Forgets the records. in_box: from now on positions must lie in the box, or at most one box length outside.
+  void restart(bool in_box) noexcept
+  {
+    records_ = 0;
+    in_box_ = in_box;
+  }
+
+  /// Walks the records of a chunk, which must end with the chunk. Each must have an integer length, an integer id of at
+  /// least 0, an existing type, and an integer mask. Returns false if one does not, in which case at() is that record,
+  /// or if the budget is spent.
+  bool walk(std::int64_t offset, std::int64_t doubles);
+
+  /// Returns the number of records in all chunks since the last restart.
+  std::int64_t records() const noexcept { return records_; }
+  std::int64_t at() const noexcept { return at_; }
+
+private:
+  template <class Number>
+  Number load(const char* record, std::size_t slot) const noexcept
+  {
+    return bytes_.load<Number>(record + slot * sizeof(Number));
+  }
+
+  bool is_record(const char* record) const noexcept;
+  bool near_box(const char* record) const noexcept;
+
+  RestartBytes bytes_;
+  const RestartHeader& header_;
+  SearchBudget& budget_;
+  BoxBounds bounds_; ///< of where particles may be, if they must be near the box
+  bool in_box_ = false;
+  Progress& progress_;
+  std::int64_t records_ = 0;
+  std::int64_t at_ = 0;
+};
+
 /// The result of a search for the particles.
 struct ChunkSearch
 {

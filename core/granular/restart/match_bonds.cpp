@@ -15,21 +15,6 @@ namespace
 /// between processes.
 constexpr double rounding = 1e-6;
 
-/// Returns true if numbers are the same but for their signs, and for rounding of numbers of that size.
-bool same_value(double one, double other, double size) noexcept
-{
-  const double difference = std::abs(std::abs(one) - std::abs(other));
-  return (std::isfinite(difference) && difference <= rounding * size) ||
-    std::abs(one) == std::abs(other) || (std::isnan(one) && std::isnan(other));
-}
-
-bool same_values(const double* a, const double* b, std::size_t count) noexcept
-{
-  const auto same = [](double one, double other)
-  { return same_value(one, other, std::max(std::abs(one), std::abs(other))); };
-  return std::equal(a, a + count, b, same);
-}
-
 /// The kind of a history value: numbers of which the sizes can be compared.
 std::size_t kind_of(std::size_t value, std::size_t count) noexcept
 {
@@ -45,16 +30,24 @@ struct Doubtful
   const double* higher;
 };
 
-bool differs(const Doubtful& copies, std::span<const double> largest) noexcept
+/// Returns true if the values are the same but for their signs, and for rounding of numbers of the largest size of each kind or,
+/// if these are not known, of their own sizes.
+bool same_values(
+  const Doubtful& copies, std::size_t count, std::span<const double> largest) noexcept
 {
-  for (std::size_t i = 0; i < largest.size(); ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    if (!same_value(copies.lower[i], copies.higher[i], largest[kind_of(i, largest.size())]))
+    const double one = std::abs(copies.lower[i]);
+    const double other = std::abs(copies.higher[i]);
+    const double size = largest.empty() ? std::max(one, other) : largest[kind_of(i, count)];
+    const double difference = std::abs(one - other);
+    const bool near = std::isfinite(difference) && difference <= rounding * size;
+    if (!near && one != other && !(std::isnan(one) && std::isnan(other)))
     {
-      return true;
+      return false;
     }
   }
-  return false;
+  return true;
 }
 
 /// A copy of a bond, seen from the particle with the lower id.
@@ -139,8 +132,8 @@ public:
     std::int64_t sum = 0;
     for (const Scratch& scratch : scratch_)
     {
-      sum += std::ranges::count_if(
-        scratch.doubtful, [&](const Doubtful& copies) { return differs(copies, largest); });
+      sum += std::ranges::count_if(scratch.doubtful,
+        [&](const Doubtful& copies) { return !same_values(copies, history_values_, largest); });
     }
     return sum;
   }
@@ -187,21 +180,18 @@ private:
     BondCounts counts;
     finder.find(copies.partners, copies.partners.data());
     copies.states.resize(copies.size());
-    for (std::size_t row = 0; row < copies.rows(); ++row)
-    {
-      const std::int64_t id = ids_[index(copies.first_row) + row];
-      for (auto i = index(copies.begins[row]); i < index(copies.begins[row + 1]); ++i)
+    copies.for_each(0, std::ssize(ids_),
+      [&](std::int64_t row, std::size_t i)
       {
-        const std::int64_t partner = copies.partners[i];
-        const bool there = partner != IdFinder::nowhere;
-        const std::int64_t other = there ? ids_[index(partner)] : id;
+        const std::int64_t id = ids_[index(row)];
+        const bool there = copies.partners[i] != IdFinder::nowhere;
+        const std::int64_t other = there ? ids_[index(copies.partners[i])] : id;
         counts.without_partner += there ? 0 : 1;
         counts.of_itself += there && other == id ? 1 : 0;
         copies.states[i] = !there ? BondCopies::Left
           : !once && other < id   ? BondCopies::Higher
                                   : BondCopies::Kept;
-      }
-    }
+      });
     return counts;
   }
 
@@ -211,18 +201,15 @@ private:
     for (std::size_t block = 0; block < blocks_.size(); ++block)
     {
       const BondCopies& copies = blocks_[block];
-      for (std::size_t row = 0; row < copies.rows(); ++row)
-      {
-        for (auto i = index(copies.begins[row]); i < index(copies.begins[row + 1]); ++i)
+      copies.for_each(0, std::ssize(ids_),
+        [&](std::int64_t row, std::size_t i)
         {
           if (copies.states[i] == BondCopies::Higher)
           {
             visit(copies.partners[i],
-              Copy{ copies.first_row + static_cast<std::int64_t>(row), copies.types[i],
-                static_cast<std::uint32_t>(block), i });
+              Copy{ row, copies.types[i], static_cast<std::uint32_t>(block), i });
           }
-        }
-      }
+        });
     }
   }
 
@@ -293,7 +280,7 @@ private:
     left.states[higher.place] = BondCopies::Left;
     const Doubtful copies = { blocks_[lower.block].values() + lower.place * history_values_,
       left.values() + higher.place * history_values_ };
-    if (!same_values(copies.lower, copies.higher, history_values_))
+    if (!same_values(copies, history_values_, {}))
     {
       scratch.doubtful.push_back(copies);
     }

@@ -6,6 +6,7 @@
 #include "granular/memory/block.h"
 #include "granular/parallel/executor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,6 +30,36 @@ struct BondCopies
   std::vector<std::int32_t> types;
   Block history; ///< doubles of each copy
   std::vector<unsigned char> states;
+
+  /// Calls visit(row, copy) for each copy in the rows of the file from first to end.
+  template <class Visit>
+  void for_each(std::int64_t first, std::int64_t end, const Visit& visit) const
+  {
+    const auto here = static_cast<std::int64_t>(this->rows());
+    const std::int64_t last = std::min(end - first_row, here);
+    for (std::int64_t row = std::max<std::int64_t>(first - first_row, 0); row < last; ++row)
+    {
+      const std::int64_t behind = begins[static_cast<std::size_t>(row) + 1];
+      for (std::int64_t i = begins[static_cast<std::size_t>(row)]; i < behind; ++i)
+      {
+        visit(first_row + row, static_cast<std::size_t>(i));
+      }
+    }
+  }
+
+  /// The same for those that are bonds.
+  template <class Visit>
+  void for_kept(std::int64_t first, std::int64_t end, const Visit& visit) const
+  {
+    this->for_each(first, end,
+      [&](std::int64_t row, std::size_t copy)
+      {
+        if (states[copy] != Left)
+        {
+          visit(row, copy);
+        }
+      });
+  }
 
   std::size_t rows() const noexcept { return begins.size() - 1; }
   std::size_t size() const noexcept { return partners.size(); }

@@ -2,7 +2,7 @@
 #include "granular/restart/process_files.h"
 
 #include "granular/restart/bond_record.h"
-#include "granular/restart/record_walker.h"
+#include "granular/restart/find_chunks.h"
 #include "granular/restart/restart_bytes.h"
 
 #include <algorithm>
@@ -121,6 +121,7 @@ std::string read_content(const ByteSource& source, Progress& progress)
 void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress)
 {
   layout.records = 0;
+  layout.begin = layout.size;
   const std::string of_all = " of " + std::to_string(layout.header.processes);
   for (int process = 0; process < layout.header.processes; ++process)
   {

@@ -6,8 +6,10 @@
 #include "granular/restart/record_scan.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace granular
 {
@@ -26,12 +28,6 @@ const RecordColumn common_columns[] = { { "id", Kind::Id, 0, 0 }, { "type", Kind
 
 constexpr auto take_none = [](std::size_t, std::size_t, std::size_t) {};
 
-/// Returns true if a part may be that of a fix, which has columns if it has a length.
-bool fits_fix(const RestartFix& fix, std::size_t fix_length, std::size_t length) noexcept
-{
-  return fix_length > 0 ? length == fix_length : static_cast<std::int64_t>(length) <= fix.most;
-}
-
 /// Whose the parts of a record are, by their lengths: in the order of the fixes, or if they do not fit, in the only other one that
 /// gives columns to the fixes that have some. Empty: there is none, or more than one.
 std::vector<std::size_t> order_fixes(const std::vector<RestartFix>& fixes,
@@ -40,39 +36,46 @@ std::vector<std::size_t> order_fixes(const std::vector<RestartFix>& fixes,
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), 0);
   const auto fits = [&](std::size_t part)
-  { return fits_fix(fixes[order[part]], fix_lengths[order[part]], parts[part]); };
+  {
+    const std::size_t wanted = fix_lengths[order[part]]; // of a fix that has columns
+    return wanted > 0 ? parts[part] == wanted
+                      : static_cast<std::int64_t>(parts[part]) <= fixes[order[part]].most;
+  };
   if (std::ranges::all_of(order, fits))
   {
     return order;
   }
   // parts that are as long could be swapped: of each length that has columns there must be one, and all others fit
   // if the longest goes to the fix that may have most
-  std::vector<bool> of_columns(static_cast<std::size_t>(RecordPlan::most_values) + 1);
-  for (const std::size_t length : fix_lengths)
+  order.assign(parts.size(), parts.size());
+  std::vector<std::size_t> other_fixes;
+  std::vector<std::size_t> other_parts;
+  for (std::size_t fix = 0; fix < fixes.size(); ++fix)
   {
-    of_columns[length] = true;
+    const auto place = std::ranges::find(parts, fix_lengths[fix]) - parts.begin();
+    if (fix_lengths[fix] == 0)
+    {
+      other_fixes.push_back(fix);
+    }
+    else if (std::ranges::count(parts, fix_lengths[fix]) != 1 ||
+      std::exchange(order[static_cast<std::size_t>(place)], fix) < parts.size())
+    {
+      return {};
+    }
   }
-  const auto longer_part = [&](std::size_t a, std::size_t b)
+  for (std::size_t part = 0; part < parts.size(); ++part)
   {
-    const auto has = [&](std::size_t part)
-    { return parts[part] < of_columns.size() && of_columns[parts[part]]; };
-    return has(a) != has(b) ? has(a) : parts[a] > parts[b];
-  };
-  const auto longer_fix = [&](std::size_t a, std::size_t b)
+    if (order[part] == parts.size())
+    {
+      other_parts.push_back(part);
+    }
+  }
+  std::ranges::sort(other_parts, std::greater(), [&](std::size_t part) { return parts[part]; });
+  std::ranges::sort(other_fixes, std::greater(), [&](std::size_t fix) { return fixes[fix].most; });
+  for (std::size_t i = 0; i < other_parts.size(); ++i)
   {
-    return fix_lengths[a] != fix_lengths[b] ? fix_lengths[a] > fix_lengths[b]
-                                            : fixes[a].most > fixes[b].most;
-  };
-  std::vector<std::size_t> by_length = order;
-  std::ranges::sort(by_length, longer_part);
-  std::vector<std::size_t> by_most = order;
-  std::ranges::sort(by_most, longer_fix);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    order[by_length[i]] = by_most[i];
-    const bool twice =
-      i > 0 && fix_lengths[by_most[i - 1]] > 0 && parts[by_length[i]] == parts[by_length[i - 1]];
-    if (twice || !fits(by_length[i]))
+    order[other_parts[i]] = other_fixes[i];
+    if (!fits(other_parts[i]))
     {
       return {};
     }

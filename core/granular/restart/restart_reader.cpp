@@ -2,29 +2,70 @@
 #include "granular/restart/restart_reader.h"
 
 #include "granular/common/shares.h"
-#include "granular/restart/bond_frame.h"
-#include "granular/restart/collect_bonds.h"
+#include "granular/local/local_columns.h"
 #include "granular/restart/decode_records.h"
+#include "granular/restart/history_layout.h"
 #include "granular/restart/record_plan.h"
 #include "granular/restart/record_scan.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace granular
 {
 namespace
 {
+void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
+{
+  const std::pair<std::int64_t, std::string> said[] = {
+    { counts.repeated_ids,
+      "particles that have the id of another one, where bonds end at the first that has it" },
+    { counts.without_partner, "bonds that are left out, as their partner is not in the file" },
+    { counts.of_itself, "bonds of a particle with itself" },
+    { counts.differing,
+      "bonds whose two particles do not hold the same history, of which that of the lower id is "
+      "taken" },
+  };
+  for (const auto& [count, of_what] : said)
+  {
+    if (count > 0)
+    {
+      notices.push_back({ where, of_what + ": " + std::to_string(count) });
+    }
+  }
+}
+
+/// A layout that was asked for, and is not that of the file.
+void check_layout(int asked, std::int64_t values, const Where& where, Notices& notices)
+{
+  const auto layouts = history_layouts();
+  if (asked < 0 || static_cast<std::size_t>(asked) >= layouts.size() || values == 0)
+  {
+    return;
+  }
+  const HistoryLayout& layout = layouts[static_cast<std::size_t>(asked)];
+  if (static_cast<std::int64_t>(layout.columns.size()) != values)
+  {
+    notices.push_back({ where,
+      "expected " + std::to_string(layout.columns.size()) + " history values of a bond, as " +
+        std::string(layout.name) + " has them, got " + std::to_string(values) +
+        ": they are named history1, history2, ..." });
+  }
+}
+
 /// Decodes the records of a file.
 class FrameReader
 {
 public:
   FrameReader(const ByteSource& source, const RestartLayout& layout, const RestartRequest& request,
     const RecordPlan& plan)
-    : plan_(plan)
-    , records_(layout.records)
+    : layout_(layout)
+    , request_(request)
+    , plan_(plan)
     , first_(begin_of_part(layout.records, request.piece, request.pieces))
     , end_(begin_of_part(layout.records, request.piece + 1, request.pieces))
     , executor_(request.lines.threads)
@@ -35,7 +76,7 @@ public:
     {
       const bool all = request.pieces == 1;
       const bool absolute = request.lines.point_origin == Vector3{};
-      bonds_.emplace(plan, records_, scan_.blocks(), all ? particles_.ids() : nullptr,
+      bonds_.emplace(plan, layout.records, scan_.blocks(), all ? particles_.ids() : nullptr,
         all && absolute ? particles_.points() : nullptr, request.lines.pool);
     }
   }
@@ -63,11 +104,10 @@ public:
         }
       }
     };
-    scan_.run(executor_, all ? records_ : end_, visit, progress);
+    scan_.run(executor_, all ? layout_.records : end_, visit, progress);
   }
 
-  RestartFrame take(const RestartLayout& layout, const RestartRequest& request, const Where& where,
-    Notices& notices, Progress& progress)
+  RestartFrame take(const Where& where, Notices& notices, Progress& progress)
   {
     RestartFrame frame;
     FrameHeader& header = frame.bonds.table.header;
@@ -76,23 +116,159 @@ public:
     header.counted = "BONDS";
     if (bonds_)
     {
-      make_bond_frame(
-        *bonds_, layout, request, first_, end_, where, frame.bonds, notices, progress);
+      this->make_bonds(where, frame.bonds, notices, progress);
     }
     frame.particles = particles_.take(where, notices);
     return frame;
   }
 
 private:
+  /// Makes the lines of a frame, whose header is set, from the collected bonds whose first particle is in rows that are read.
+  void make_bonds(const Where& where, LocalFrame& local, Notices& notices, Progress& progress)
+  {
+    const std::size_t values = bonds_->history_values();
+    PartialProgress part(progress);
+    part.set_part(0, 0.4);
+    add_notices(match_bonds(bonds_->copies(), bonds_->ids(), layout_.header.newton_bond, values,
+                  executor_, part),
+      where, notices);
+    check_layout(request_.history_layout, static_cast<std::int64_t>(values), where, notices);
+    this->count_bonds(local);
+    this->make_arrays(local.table);
+    std::array<Block, 2> ends;
+    const auto rows = static_cast<std::size_t>(local.table.rows);
+    for (Block& end : ends)
+    {
+      end = Block(rows * sizeof(Vector3), request_.lines.pool);
+    }
+    part.set_part(0.4, 0.7);
+    executor_.parallel_for(
+      bonds_->copies().size(),
+      [&](std::size_t block, std::size_t) { this->fill(block, local.table, ends); }, part);
+    part.set_part(0.7, 1);
+    const auto points = [&](const Block& end)
+    { return std::span(static_cast<const double*>(end.data()), 3 * rows); };
+    local.lines =
+      make_lines(points(ends[0]), points(ends[1]), local.table.header.box, request_.lines, part);
+    local.has_lines = true;
+  }
+
+  /// The rows of each block in the table, and of all.
+  void count_bonds(LocalFrame& local)
+  {
+    DumpFrame& table = local.table;
+    for (const BondCopies& copies : bonds_->copies())
+    {
+      first_bonds_.push_back(static_cast<std::size_t>(table.rows));
+      copies.for_kept(0, layout_.records,
+        [&](std::int64_t row, std::size_t)
+        {
+          ++table.header.rows;
+          local.first_row += row < first_ ? 1 : 0;
+          table.rows += row >= first_ && row < end_ ? 1 : 0;
+        });
+    }
+  }
+
+  /// Memory for the arrays that are wanted.
+  void make_arrays(DumpFrame& table) const
+  {
+    table.schema = make_bond_schema(request_.history_layout, layout_.header.version,
+      static_cast<std::int64_t>(bonds_->history_values()));
+    const auto rows = static_cast<std::size_t>(table.rows);
+    for (const ArrayInfo& info : table.schema.arrays())
+    {
+      if (!request_.wanted_bonds || request_.wanted_bonds(info.name))
+      {
+        const std::size_t bytes = size_of(info.type) * info.columns.size() * rows;
+        table.arrays.push_back({ info, Block(bytes, request_.lines.pool), {}, {} });
+      }
+    }
+  }
+
+  /// Stores values of each kept bond of a block: store(row, copy, to) returns where the next go.
+  template <class Value, class Store>
+  void put(std::size_t block, const Block& array, std::size_t columns, const Store& store) const
+  {
+    auto* to = static_cast<Value*>(array.data()) + first_bonds_[block] * columns;
+    bonds_->copies()[block].for_kept(
+      first_, end_, [&](std::int64_t row, std::size_t copy) { to = store(row, copy, to); });
+  }
+
+  void fill(std::size_t block, const DumpFrame& table, const std::array<Block, 2>& ends) const
+  {
+    const BondCopies& copies = bonds_->copies()[block];
+    this->put<double>(block, ends[0], 3,
+      [&](std::int64_t row, std::size_t, double* to)
+      { return std::copy_n(bonds_->point(row), 3, to); });
+    this->put<double>(block, ends[1], 3,
+      [&](std::int64_t, std::size_t copy, double* to)
+      { return std::copy_n(bonds_->point(copies.partners[copy]), 3, to); });
+    for (const DumpArray& array : table.arrays)
+    {
+      switch (array.info.columns.front())
+      {
+        case 0:
+        case 1:
+          this->put<std::int64_t>(block, array.block, 1,
+            [&, first = array.info.columns.front() == 0](
+              std::int64_t row, std::size_t copy, std::int64_t* to)
+            {
+              *to = bonds_->ids()[static_cast<std::size_t>(first ? row : copies.partners[copy])];
+              return to + 1;
+            });
+          break;
+        case 2:
+          this->put<std::int32_t>(block, array.block, 1,
+            [&](std::int64_t, std::size_t copy, std::int32_t* to)
+            { return std::copy_n(&copies.types[copy], 1, to); });
+          break;
+        default:
+          this->put_history(block, array);
+      }
+    }
+  }
+
+  void put_history(std::size_t block, const DumpArray& array) const
+  {
+    const BondCopies& copies = bonds_->copies()[block];
+    const std::size_t all = bonds_->history_values();
+    const bool known = find_history_layout(
+      request_.history_layout, layout_.header.version, static_cast<std::int64_t>(all));
+    const std::size_t unsigned_from = known ? HistoryLayout::unsigned_from : all;
+    this->put<double>(block, array.block, array.info.columns.size(),
+      [&](std::int64_t, std::size_t copy, double* to)
+      {
+        for (const int column : array.info.columns)
+        {
+          const auto i = static_cast<std::size_t>(column) - 3;
+          const double value = copies.values()[copy * all + i];
+          *to++ = i < unsigned_from ? value : std::abs(value);
+        }
+        return to;
+      });
+  }
+
+  const RestartLayout& layout_;
+  const RestartRequest& request_;
   const RecordPlan& plan_;
-  std::int64_t records_;
   std::int64_t first_;
   std::int64_t end_;
   Executor executor_;
   RecordScan scan_;
   ParticleStore particles_;
   std::optional<BondCollector> bonds_;
+  std::vector<std::size_t> first_bonds_; ///< of each block in the table
 };
+}
+
+ColumnSchema make_bond_schema(
+  int history_layout, std::string_view version, std::int64_t history_values)
+{
+  std::vector<std::string> names = { "id1", "id2", "btype" };
+  const auto history = history_columns(history_layout, version, history_values);
+  names.insert(names.end(), history.begin(), history.end());
+  return make_local_schema(names);
 }
 
 RestartColumns find_restart_columns(
@@ -119,6 +295,6 @@ RestartFrame read_restart(const ByteSource& source, const RestartLayout& layout,
   part.set_part(0.05, plan.has_bonds() ? 0.7 : 1);
   reader.read(part);
   part.set_part(0.7, 1);
-  return reader.take(layout, request, { source.path() }, notices, part);
+  return reader.take({ source.path() }, notices, part);
 }
 }

@@ -4,7 +4,7 @@
 
 #include "granular/common/words.h"
 #include "granular/numbers/number_scan.h"
-#include "granular/vtk_files/vtk_words.h"
+#include "granular/vtk_files/vtk_values.h"
 
 #include <algorithm>
 

@@ -3,10 +3,13 @@
 #define granular_vtk_files_vtk_values_h
 
 #include "granular/common/value_type.h"
+#include "granular/numbers/number.h"
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace granular
 {
@@ -34,5 +37,20 @@ std::int64_t bytes_of(ValueType type) noexcept;
 template <class T>
 std::int64_t load_numbers(
   ValueType type, const char* bytes, std::int64_t count, T* numbers) noexcept;
+
+/// The kind of word that a text must contain, for messages.
+template <class T>
+constexpr const char* kind_of_word = std::is_integral_v<T> ? "a whole number" : "a number";
+
+/// Parses a word as a number of that kind; returns false if it is none.
+inline bool parse_word(std::string_view word, double& number) noexcept
+{
+  return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));
+}
+
+inline bool parse_word(std::string_view word, std::int64_t& number) noexcept
+{
+  return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), number));
+}
 }
 #endif

@@ -3,18 +3,37 @@
 // the bytes of a block and those of a last one that is shorter (0: none is), then the compressed bytes of each. In
 // base64 header and plain values are encoded together; a header of compressed ones on its own, and all blocks together.
 #include "granular/bytes/compression.h"
+
 #include "granular/common/words.h"
-#include "granular/vtk_files/base64.h"
-#include "granular/vtk_files/vtk_words.h"
+#include "granular/vtk_files/vtk_values.h"
 #include "granular/vtk_files/vtk_xml.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 
 namespace granular
 {
 namespace
 {
+constexpr std::string_view alphabet =
+  "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::uint8_t no_digit = 64;
+
+constexpr std::array<std::uint8_t, 256> make_digits() noexcept
+{
+  std::array<std::uint8_t, 256> digits = {};
+  digits.fill(no_digit);
+  for (std::size_t i = 0; i < alphabet.size(); ++i)
+  {
+    digits[static_cast<unsigned char>(alphabet[i])] = static_cast<std::uint8_t>(i);
+  }
+  return digits;
+}
+
+constexpr std::array<std::uint8_t, 256> digits = make_digits();
+
 std::string number_of(std::int64_t number, std::int64_t count)
 {
   return " (" + std::to_string(number + 1) + " of " + std::to_string(count) + ")";
@@ -252,5 +271,35 @@ std::string VtkXml::bytes_of_array(const VtkXmlArray& array, std::int64_t bytes)
     from.fail("values of " + std::to_string(wanted) + " bytes", "fewer");
   }
   return from.take(header_bytes_ + wanted).substr(header_bytes_);
+}
+
+std::optional<std::string> decode_base64(std::string_view text, std::size_t bytes)
+{
+  // the first is checked before the second may be too large
+  if (bytes / 3 > text.size() / 4 || base64_chars(bytes) > text.size())
+  {
+    return std::nullopt;
+  }
+  std::string decoded(bytes, '\0');
+  for (std::size_t from = 0, to = 0; to < bytes; from += 4, to += 3)
+  {
+    const std::size_t wanted = std::min<std::size_t>(3, bytes - to);
+    std::uint32_t all = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const std::uint8_t digit = digits[static_cast<unsigned char>(text[from + i])];
+      const bool padding = i > wanted && text[from + i] == '=';
+      if (digit == no_digit && !padding)
+      {
+        return std::nullopt;
+      }
+      all = all << 6 | (padding ? 0U : digit);
+    }
+    for (std::size_t i = 0; i < wanted; ++i)
+    {
+      decoded[to + i] = static_cast<char>(all >> (16 - 8 * i) & 0xff);
+    }
+  }
+  return decoded;
 }
 }

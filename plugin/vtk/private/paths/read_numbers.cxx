@@ -3,7 +3,7 @@
 
 #include "granular/euler/grain_values.h"
 #include "granular/grid/sphere_box.h"
-#include "granular/local/ids.h"
+#include "granular/local/fetch_particles.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
 
