@@ -33,8 +33,7 @@ bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
   const std::string name = source->GetXMLName() ? source->GetXMLName() : "";
   const bool reader = source->IsA("vtkSMGranularParticleReaderProxy");
   return (reader && port == 0) ||
-    std::find(std::begin(ParticleFilters), std::end(ParticleFilters), name) !=
-    std::end(ParticleFilters);
+    std::ranges::find(ParticleFilters, name) != std::end(ParticleFilters);
 }
 
 // Returns true if the input of a property is particles, and so are the data that it was made of: circles that a plane cuts out of
@@ -63,14 +62,6 @@ bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
 }
 
 vtkStandardNewMacro(vtkSMGranularGrainsDomain);
-
-vtkSMGranularGrainsDomain::vtkSMGranularGrainsDomain() = default;
-vtkSMGranularGrainsDomain::~vtkSMGranularGrainsDomain() = default;
-
-void vtkSMGranularGrainsDomain::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}
 
 int vtkSMGranularGrainsDomain::SetDefaultValues(vtkSMProperty* property, bool)
 {

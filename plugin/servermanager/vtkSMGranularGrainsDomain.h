@@ -22,7 +22,6 @@ class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularGrainsDomain : public vtkSMDo
 public:
   static vtkSMGranularGrainsDomain* New();
   vtkTypeMacro(vtkSMGranularGrainsDomain, vtkSMDomain);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * Sets the property Representation of the proxy. The given property stays as it is.
@@ -30,8 +29,8 @@ public:
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
 protected:
-  vtkSMGranularGrainsDomain();
-  ~vtkSMGranularGrainsDomain() override;
+  vtkSMGranularGrainsDomain() = default;
+  ~vtkSMGranularGrainsDomain() override = default;
 
 private:
   vtkSMGranularGrainsDomain(const vtkSMGranularGrainsDomain&) = delete;

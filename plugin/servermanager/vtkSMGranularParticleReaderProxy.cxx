@@ -10,15 +10,6 @@
 
 vtkStandardNewMacro(vtkSMGranularParticleReaderProxy);
 
-vtkSMGranularParticleReaderProxy::vtkSMGranularParticleReaderProxy() = default;
-
-vtkSMGranularParticleReaderProxy::~vtkSMGranularParticleReaderProxy() = default;
-
-void vtkSMGranularParticleReaderProxy::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}
-
 void vtkSMGranularParticleReaderProxy::UpdatePipelineInformation()
 {
   this->Superclass::UpdatePipelineInformation();

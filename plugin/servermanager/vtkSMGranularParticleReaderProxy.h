@@ -17,7 +17,6 @@ class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularParticleReaderProxy : public 
 public:
   static vtkSMGranularParticleReaderProxy* New();
   vtkTypeMacro(vtkSMGranularParticleReaderProxy, vtkSMSourceProxy);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
    * Chooses anew from the arrays if none that was chosen is there any more: the user has named the
@@ -26,8 +25,8 @@ public:
   void UpdatePipelineInformation() override;
 
 protected:
-  vtkSMGranularParticleReaderProxy();
-  ~vtkSMGranularParticleReaderProxy() override;
+  vtkSMGranularParticleReaderProxy() = default;
+  ~vtkSMGranularParticleReaderProxy() override = default;
 
   /**
    * Asks for the arrays that the update has found, as after AtomStyle or ColumnNames has changed.
