@@ -12,8 +12,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,37 +23,18 @@ vtkStandardNewMacro(vtkGranularDecompositionWriter);
 
 namespace
 {
-enum class FileKind
-{
-  Text,
-  Xml
-};
-
 /**
- * The form of a file by the end of its name.
+ * Returns true for a file in XML, false for legacy text, by the end of its name.
  */
-struct Ending
+bool IsXml(std::string_view path)
 {
-  std::string_view Text;
-  FileKind Kind;
-};
-
-constexpr Ending Endings[] = {
-  { ".vtk", FileKind::Text },
-  { ".vtu", FileKind::Xml },
-  { ".decomposition", FileKind::Text },
-};
-
-FileKind KindOf(std::string_view path)
-{
-  const auto* found = std::find_if(std::begin(Endings), std::end(Endings),
-    [&](const Ending& ending) { return path.ends_with(ending.Text); });
-  if (found == std::end(Endings))
+  const bool xml = path.ends_with(".vtu");
+  if (!xml && !path.ends_with(".vtk") && !path.ends_with(".decomposition"))
   {
     throw granular::UnsupportedError(
       "expected a name that ends in .vtk, .vtu or .decomposition", { std::string(path) });
   }
-  return found->Kind;
+  return xml;
 }
 }
 
@@ -69,8 +48,7 @@ public:
   File(vtkGranularDecompositionWriter* self, Internals& internals)
     : WholeFile(
         self->FileName, self->Dialect == PUBLIC, internals.MakeOptions(self), internals.GetRanks())
-    , Self(self)
-    , Kind(KindOf(self->FileName))
+    , IsPublic(self->Dialect == PUBLIC)
   {
   }
 
@@ -79,7 +57,7 @@ protected:
   {
     auto* grid = this->Check(input);
     NameFile({ this->Path }, [&] { this->All = ReadVoxels(grid, notices); });
-    return std::make_unique<FieldInput>(grid, grid->GetNumberOfCells());
+    return std::make_unique<RowsInput>(grid, grid->GetNumberOfCells());
   }
 
   void Gather(granular::Notices& notices, granular::Progress& progress) override
@@ -95,12 +73,12 @@ protected:
   std::string Encode(
     std::optional<double> time, granular::Notices& notices, granular::Progress& progress) override
   {
-    if (this->Self->Dialect == PUBLIC)
+    if (this->IsPublic)
     {
       return granular::encode_grid(this->All, notices);
     }
-    return this->Kind == FileKind::Text ? granular::encode_voxels(this->All, progress)
-                                        : granular::encode_vtu(this->All, time, progress);
+    return IsXml(this->Path) ? granular::encode_vtu(this->All, time, progress)
+                             : granular::encode_voxels(this->All, progress);
   }
 
 private:
@@ -118,16 +96,9 @@ private:
     return grid;
   }
 
-  vtkGranularDecompositionWriter* Self;
-  const FileKind Kind;
+  const bool IsPublic;         ///< the dialect
   granular::Decomposition All; ///< until they are gathered those of this process
 };
-
-//------------------------------------------------------------------------------
-vtkGranularDecompositionWriter::vtkGranularDecompositionWriter() = default;
-
-//------------------------------------------------------------------------------
-vtkGranularDecompositionWriter::~vtkGranularDecompositionWriter() = default;
 
 //------------------------------------------------------------------------------
 void vtkGranularDecompositionWriter::PrintSelf(ostream& os, vtkIndent indent)
@@ -151,7 +122,7 @@ std::unique_ptr<FrameWriter> vtkGranularDecompositionWriter::OpenFile(Internals&
     throw granular::UnsupportedError(
       "expected a name without '%': one file holds the subdomains of all processes", { path });
   }
-  if (KindOf(path) == FileKind::Xml && this->Dialect == PUBLIC)
+  if (IsXml(path) && this->Dialect == PUBLIC)
   {
     throw granular::UnsupportedError(
       "expected a name that ends in .vtk or .decomposition: the dialect PUBLIC has no .vtu",

@@ -46,8 +46,8 @@ public:
   ///@}
 
 protected:
-  vtkGranularDecompositionWriter();
-  ~vtkGranularDecompositionWriter() override;
+  vtkGranularDecompositionWriter() = default;
+  ~vtkGranularDecompositionWriter() override = default;
 
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 

@@ -2,7 +2,6 @@
 #include "vtkGranularDumpWriter.h"
 
 #include "private/request/expect_data.h"
-#include "private/request/text_of.h"
 #include "private/writing/writer.h"
 
 #include "vtkObjectFactory.h"
@@ -10,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -35,58 +36,25 @@ void CheckFinite(const double* first, int count)
       "expected BoxOrigin and BoxVectors of finite numbers, got " + std::to_string(*bad));
   }
 }
-}
 
-//------------------------------------------------------------------------------
 /**
- * A dump that is being written.
+ * The particles of this rank, in a box and with boundaries that were given, if any.
  */
-class vtkGranularDumpWriter::File : public RowsFile
+std::unique_ptr<RowsInput> TakeParticles(vtkDataObject* input, const granular::Where& where,
+  const std::optional<granular::Box>& box, const std::string& boundary, granular::Notices& notices)
 {
-public:
-  File(vtkGranularDumpWriter* self, granular::DumpFormat format,
-    const granular::WriteOptions& options, granular::Communicator& ranks)
-    : RowsFile(self->FileName, std::move(format), options, ranks)
-    , Self(self)
+  auto data = std::make_unique<DumpInput>(
+    ExpectData<vtkPointSet>(input, "a vtkPointSet to write", where), notices);
+  granular::Box& own = data->View.header.box;
+  std::string flags = boundary.empty() ? own.boundary : boundary;
+  if (box)
   {
+    own = *box;
+    data->View.has_box = true;
   }
-
-protected:
-  std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) override
-  {
-    auto* points = ExpectData<vtkPointSet>(input, "a vtkPointSet to write", { this->Path });
-    auto data = std::make_unique<DumpInput>(points, notices);
-    granular::FrameHeader& header = data->View.header;
-    const std::string boundary = header.box.boundary;
-    if (HasBox(this->Self->BoxVectors))
-    {
-      header.box = MakeBox(this->Self->BoxOrigin, this->Self->BoxVectors);
-      header.box.boundary = boundary;
-      data->View.has_box = true;
-    }
-    if (*TextOf(this->Self->Boundary))
-    {
-      header.box.boundary = this->Self->Boundary;
-    }
-    return data;
-  }
-
-private:
-  vtkGranularDumpWriter* Self;
-};
-
-//------------------------------------------------------------------------------
-vtkGranularDumpWriter::vtkGranularDumpWriter()
-{
-  this->SetNumberFormat("Automatic");
+  own.boundary = std::move(flags);
+  return data;
 }
-
-//------------------------------------------------------------------------------
-vtkGranularDumpWriter::~vtkGranularDumpWriter()
-{
-  this->SetColumns(nullptr);
-  this->SetNumberFormat(nullptr);
-  this->SetBoundary(nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -97,8 +65,8 @@ void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Dialect: " << this->Dialect << "\n";
   os << indent << "Scaled: " << this->Scaled << "\n";
   os << indent << "Image: " << this->Image << "\n";
-  os << indent << "Columns: " << TextOf(this->Columns) << "\n";
-  os << indent << "NumberFormat: " << TextOf(this->NumberFormat) << "\n";
+  os << indent << "Columns: " << this->Columns << "\n";
+  os << indent << "NumberFormat: " << this->NumberFormat << "\n";
   os << indent << "SortById: " << this->SortById << "\n";
   os << indent << "WriteUnits: " << this->WriteUnits << "\n";
   os << indent << "WriteTime: " << this->WriteTime << "\n";
@@ -110,7 +78,7 @@ void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
   };
   print("BoxOrigin", this->BoxOrigin, 3);
   print("BoxVectors", this->BoxVectors, 9);
-  os << indent << "Boundary: " << TextOf(this->Boundary) << "\n";
+  os << indent << "Boundary: " << this->Boundary << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -128,31 +96,36 @@ void vtkGranularDumpWriter::SetDialect(int dialect)
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internals)
 {
-  if (*TextOf(this->Boundary))
+  if (!this->Boundary.empty())
   {
     granular::parse_boundary(this->Boundary); // a wrong one is told before a file is opened
   }
+  std::optional<granular::Box> box;
   if (HasBox(this->BoxVectors))
   {
     CheckFinite(this->BoxOrigin, 3);
     CheckFinite(this->BoxVectors, 9);
+    box = MakeBox(this->BoxOrigin, this->BoxVectors);
   }
   if (this->Style == CUSTOM && (!this->Scaled || this->Image))
   {
     internals.Tell(this, "Scaled and Image are of the Style Atom: this is Custom, see Columns");
   }
-  if (this->Style == ATOM && *TextOf(this->Columns))
+  if (this->Style == ATOM && !this->Columns.empty())
   {
     internals.Tell(this, "Columns are of the Style Custom: this is Atom");
   }
   granular::DumpFormat format =
-    granular::format_of_name(this->FileName, TextOf(this->Columns), TextOf(this->NumberFormat));
+    granular::format_of_name(this->FileName, this->Columns, this->NumberFormat);
   format.dialect = DialectOf(this->Dialect);
   format.style = this->Style == ATOM ? granular::DumpStyle::Atom : granular::DumpStyle::Custom;
   format.atom = { this->Scaled, this->Image };
   format.units = this->WriteUnits;
   format.time = this->WriteTime;
   format.sort_by_id = this->SortById;
-  return std::make_unique<File>(
-    this, std::move(format), internals.MakeOptions(this), internals.GetRanks());
+  return std::make_unique<RowsFile>(this->FileName, std::move(format), internals.MakeOptions(this),
+    internals.GetRanks(),
+    [where = granular::Where{ this->FileName }, box, boundary = this->Boundary](
+      vtkDataObject* input, granular::Notices& notices)
+    { return TakeParticles(input, where, box, boundary, notices); });
 }

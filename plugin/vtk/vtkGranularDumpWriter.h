@@ -22,6 +22,8 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularWriter.h"
 
+#include <string> // for std::string
+
 class VTKGRANULAR_EXPORT vtkGranularDumpWriter : public vtkGranularWriter
 {
 public:
@@ -87,8 +89,8 @@ public:
    * the input was read from, then all new arrays; without such a file id, type, x, y, z and all arrays. Example: "id type
    * xs ys zs v radius".
    */
-  vtkSetStringMacro(Columns);
-  vtkGetStringMacro(Columns);
+  vtkSetStdStringFromCharMacro(Columns);
+  vtkGetCharFromStdStringMacro(Columns);
   ///@}
 
   ///@{
@@ -98,8 +100,8 @@ public:
    * read back as the same number. "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" the fewest that read back as the
    * same number.
    */
-  vtkSetStringMacro(NumberFormat);
-  vtkGetStringMacro(NumberFormat);
+  vtkSetStdStringFromCharMacro(NumberFormat);
+  vtkGetCharFromStdStringMacro(NumberFormat);
   ///@}
 
   ///@{
@@ -146,13 +148,13 @@ public:
    * Sets the boundaries of the box as in dumps, "pp pp ff": p periodic, f fixed, s and m shrinking, for the lower and the
    * upper face of each axis. Empty, the default: those of the input.
    */
-  vtkSetStringMacro(Boundary);
-  vtkGetStringMacro(Boundary);
+  vtkSetStdStringFromCharMacro(Boundary);
+  vtkGetCharFromStdStringMacro(Boundary);
   ///@}
 
 protected:
-  vtkGranularDumpWriter();
-  ~vtkGranularDumpWriter() override;
+  vtkGranularDumpWriter() = default;
+  ~vtkGranularDumpWriter() override = default;
 
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
@@ -160,20 +162,18 @@ protected:
   int Dialect = AUTOMATIC;
   bool Scaled = true;
   bool Image = false;
-  char* Columns = nullptr;
-  char* NumberFormat = nullptr;
+  std::string Columns;
+  std::string NumberFormat = "Automatic";
   bool SortById = false;
   bool WriteUnits = false;
   bool WriteTime = false;
   double BoxOrigin[3] = { 0, 0, 0 };
   double BoxVectors[9] = { 0, 0, 0, 0, 0, 0, 0, 0, 0 };
-  char* Boundary = nullptr;
+  std::string Boundary;
 
 private:
   vtkGranularDumpWriter(const vtkGranularDumpWriter&) = delete;
   void operator=(const vtkGranularDumpWriter&) = delete;
-
-  class File;
 };
 
 #endif

@@ -47,7 +47,7 @@ protected:
     vtkDataObject* input, granular::Notices& vtkNotUsed(notices)) override
   {
     NameFile({ this->Path }, [&] { this->Own = ReadCells(input); });
-    return std::make_unique<FieldInput>(this->Own.Points, this->Own.Cells.count());
+    return std::make_unique<RowsInput>(this->Own.Points, this->Own.Cells.count());
   }
 
   void Gather(granular::Notices&, granular::Progress&) override
@@ -67,12 +67,6 @@ private:
   EulerInput Own;
   granular::EulerCells All;
 };
-
-//------------------------------------------------------------------------------
-vtkGranularEulerWriter::vtkGranularEulerWriter() = default;
-
-//------------------------------------------------------------------------------
-vtkGranularEulerWriter::~vtkGranularEulerWriter() = default;
 
 //------------------------------------------------------------------------------
 void vtkGranularEulerWriter::PrintSelf(ostream& os, vtkIndent indent)

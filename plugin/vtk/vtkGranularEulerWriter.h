@@ -51,8 +51,8 @@ public:
   ///@}
 
 protected:
-  vtkGranularEulerWriter();
-  ~vtkGranularEulerWriter() override;
+  vtkGranularEulerWriter() = default;
+  ~vtkGranularEulerWriter() override = default;
 
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 

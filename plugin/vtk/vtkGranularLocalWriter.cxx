@@ -3,67 +3,25 @@
 
 #include "private/local/local_input.h"
 #include "private/request/name_file.h"
-#include "private/request/text_of.h"
 #include "private/writing/writer.h"
 
 #include "vtkObjectFactory.h"
 
-#include <utility>
+#include <memory>
+#include <string>
 
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularLocalWriter);
 
 //------------------------------------------------------------------------------
-/**
- * A dump of rows that is being written.
- */
-class vtkGranularLocalWriter::File : public RowsFile
-{
-public:
-  File(const char* path, const granular::DumpFormat& format, const granular::WriteOptions& options,
-    granular::Communicator& ranks)
-    : RowsFile(path, format, options, ranks)
-    , Chosen(!format.columns.empty())
-  {
-  }
-
-protected:
-  std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) override
-  {
-    std::unique_ptr<LocalInput> data;
-    NameFile(
-      { this->Path }, [&] { data = std::make_unique<LocalInput>(input, this->Chosen, notices); });
-    return data;
-  }
-
-private:
-  const bool Chosen; ///< which columns there are
-};
-
-//------------------------------------------------------------------------------
-vtkGranularLocalWriter::vtkGranularLocalWriter()
-{
-  this->SetLabel("Automatic");
-  this->SetNumberFormat("Automatic");
-}
-
-//------------------------------------------------------------------------------
-vtkGranularLocalWriter::~vtkGranularLocalWriter()
-{
-  this->SetLabel(nullptr);
-  this->SetColumns(nullptr);
-  this->SetNumberFormat(nullptr);
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularLocalWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Dialect: " << this->Dialect << "\n";
-  os << indent << "Label: " << TextOf(this->Label) << "\n";
-  os << indent << "Columns: " << TextOf(this->Columns) << "\n";
-  os << indent << "NumberFormat: " << TextOf(this->NumberFormat) << "\n";
+  os << indent << "Label: " << this->Label << "\n";
+  os << indent << "Columns: " << this->Columns << "\n";
+  os << indent << "NumberFormat: " << this->NumberFormat << "\n";
 }
 
 //------------------------------------------------------------------------------
@@ -76,11 +34,18 @@ void vtkGranularLocalWriter::SetDialect(int dialect)
 std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& internals)
 {
   granular::DumpFormat format =
-    granular::format_of_name(this->FileName, TextOf(this->Columns), TextOf(this->NumberFormat));
+    granular::format_of_name(this->FileName, this->Columns, this->NumberFormat);
   format.dialect = DialectOf(this->Dialect);
   format.style = granular::DumpStyle::Local;
-  const std::string label = TextOf(this->Label);
-  format.counted = label == "Automatic" ? std::string() : label;
-  return std::make_unique<File>(
-    this->FileName, format, internals.MakeOptions(this), internals.GetRanks());
+  format.counted = this->Label == "Automatic" ? std::string() : this->Label;
+  const bool chosen = !format.columns.empty();
+  return std::make_unique<RowsFile>(this->FileName, format, internals.MakeOptions(this),
+    internals.GetRanks(),
+    [where = granular::Where{ this->FileName }, chosen](
+      vtkDataObject* input, granular::Notices& notices)
+    {
+      std::unique_ptr<RowsInput> data;
+      NameFile(where, [&] { data = std::make_unique<LocalInput>(input, chosen, notices); });
+      return data;
+    });
 }

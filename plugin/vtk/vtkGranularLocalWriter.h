@@ -23,6 +23,8 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularWriter.h"
 
+#include <string> // for std::string
+
 class VTKGRANULAR_EXPORT vtkGranularLocalWriter : public vtkGranularWriter
 {
 public:
@@ -52,8 +54,8 @@ public:
    * or CONTACTS. "Automatic", the default, or empty: the word of the file that the input was read from (field data
    * `RowLabel`), otherwise ENTRIES.
    */
-  vtkSetStringMacro(Label);
-  vtkGetStringMacro(Label);
+  vtkSetStdStringFromCharMacro(Label);
+  vtkGetCharFromStdStringMacro(Label);
   ///@}
 
   ///@{
@@ -62,8 +64,8 @@ public:
    * was read from, then all new arrays except the cell arrays `length`, `row` and `part`, which belong to the lines.
    * Example: "id1 id2 btype x1 y1 z1 x2 y2 z2 force".
    */
-  vtkSetStringMacro(Columns);
-  vtkGetStringMacro(Columns);
+  vtkSetStdStringFromCharMacro(Columns);
+  vtkGetCharFromStdStringMacro(Columns);
   ///@}
 
   ///@{
@@ -73,26 +75,24 @@ public:
    * read back as the same number. "%g" has six digits, "%.Ng" N from 1 to 17, "shortest" the fewest that read back as the
    * same number.
    */
-  vtkSetStringMacro(NumberFormat);
-  vtkGetStringMacro(NumberFormat);
+  vtkSetStdStringFromCharMacro(NumberFormat);
+  vtkGetCharFromStdStringMacro(NumberFormat);
   ///@}
 
 protected:
-  vtkGranularLocalWriter();
-  ~vtkGranularLocalWriter() override;
+  vtkGranularLocalWriter() = default;
+  ~vtkGranularLocalWriter() override = default;
 
   std::unique_ptr<vtkGranularPrivate::FrameWriter> OpenFile(Internals& internals) override;
 
   int Dialect = AUTOMATIC;
-  char* Label = nullptr;
-  char* Columns = nullptr;
-  char* NumberFormat = nullptr;
+  std::string Label = "Automatic";
+  std::string Columns;
+  std::string NumberFormat = "Automatic";
 
 private:
   vtkGranularLocalWriter(const vtkGranularLocalWriter&) = delete;
   void operator=(const vtkGranularLocalWriter&) = delete;
-
-  class File;
 };
 
 #endif

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string>
 
 namespace vtkGranularPrivate
@@ -59,26 +58,14 @@ std::string FindText(vtkFieldData* data, const char* name)
 }
 
 /**
- * Returns true if a box has these numbers, once they are rounded.
+ * Returns true if two boxes have the same numbers, once they are rounded.
  */
-bool Matches(
-  const granular::Box& box, const std::vector<double>& origin, const std::vector<double>& vectors)
+bool AreAlike(const granular::Box& a, const granular::Box& b)
 {
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    for (std::size_t j = 0; j < 3; ++j)
-    {
-      if (box.vectors[i][j].value() != vectors[3 * i + j])
-      {
-        return false;
-      }
-    }
-    if (box.origin[i].value() != origin[i])
-    {
-      return false;
-    }
-  }
-  return true;
+  using granular::Twofold;
+  const auto alike = [](const granular::Twofold3& x, const granular::Twofold3& y)
+  { return std::ranges::equal(x, y, {}, &Twofold::value, &Twofold::value); };
+  return alike(a.origin, b.origin) && std::ranges::equal(a.vectors, b.vectors, alike);
 }
 }
 
@@ -109,15 +96,16 @@ std::optional<granular::Box> FindBox(vtkFieldData* data)
     const granular::Vector3 hi = { b[1], b[3], b[5] };
     const granular::Box exact = tilted ? granular::Box::from_tilted_bounds(lo, hi, b[6], b[7], b[8])
                                        : granular::Box::from_bounds(lo, hi);
-    box = Matches(exact, *origin, *vectors) ? exact : box;
+    box = AreAlike(exact, box) ? exact : box;
   }
   box.boundary = FindText(data, "Boundary");
   return box;
 }
 
-RowsInput::RowsInput(vtkDataObject* input, const char* rows)
+RowsInput::RowsInput(vtkDataObject* input, std::int64_t count, const char* rows)
   : Arrays(rows)
 {
+  this->View.rows = count;
   this->ReadFieldData(input->GetFieldData());
 }
 
@@ -147,16 +135,9 @@ void RowsInput::SeeArrays(vtkDataSetAttributes* data, granular::Notices& notices
   }
 }
 
-FieldInput::FieldInput(vtkDataObject* input, std::int64_t rows)
-  : RowsInput(input, "rows")
-{
-  this->View.rows = rows;
-}
-
 DumpInput::DumpInput(vtkPointSet* input, granular::Notices& notices)
-  : RowsInput(input, "points")
+  : RowsInput(input, input->GetNumberOfPoints(), "points")
 {
-  this->View.rows = input->GetNumberOfPoints();
   if (vtkPoints* points = input->GetPoints())
   {
     this->View.points = this->Arrays.See(points->GetData(), "points", this->View.rows);
@@ -220,8 +201,7 @@ void RowsInput::ReadFieldData(vtkFieldData* data)
 
 std::vector<double> ReadAbsolutePoints(vtkPointSet* input)
 {
-  granular::Notices ofArrays; // that nobody wants here
-  DumpInput data(input, ofArrays);
+  DumpInput data(input);
   if (data.View.coordinates == granular::Coordinates::Unwrapped)
   {
     data.View.coordinates = granular::Coordinates::Absolute;

@@ -37,6 +37,10 @@ granular::Box MakeBox(const double origin[3], const double vectors[9]);
 class RowsInput
 {
 public:
+  /**
+   * Reads the field data; so many rows are read in another way. `rows` names the rows in errors: see ArrayViews.
+   */
+  explicit RowsInput(vtkDataObject* input, std::int64_t count = 0, const char* rows = "rows");
   virtual ~RowsInput() = default;
   RowsInput(const RowsInput&) = delete;
   void operator=(const RowsInput&) = delete;
@@ -46,11 +50,6 @@ public:
   bool HasTime = false;     ///< and the time
 
 protected:
-  /**
-   * Reads the field data. `rows` names the rows in errors: see ArrayViews.
-   */
-  RowsInput(vtkDataObject* input, const char* rows);
-
   /**
    * Adds all arrays but ghosts to the view. Arrays that cannot be columns, such as variants, are left out with a
    * notice. Throws Error if an array does not have a value for each row.
@@ -64,15 +63,6 @@ private:
 };
 
 /**
- * A view of field data alone, for rows that are read in another way.
- */
-class FieldInput : public RowsInput
-{
-public:
-  FieldInput(vtkDataObject* input, std::int64_t rows);
-};
-
-/**
  * Views of points, point arrays and field data.
  */
 class DumpInput : public RowsInput
@@ -82,6 +72,10 @@ public:
    * Throws what SeeArrays throws.
    */
   DumpInput(vtkPointSet* input, granular::Notices& notices);
+  explicit DumpInput(vtkPointSet* input, granular::Notices&& unwanted = {})
+    : DumpInput(input, unwanted)
+  {
+  }
 };
 
 /**

@@ -52,7 +52,7 @@ void CheckCells(vtkPolyData* input)
 }
 
 LocalInput::LocalInput(vtkDataObject* input, bool made, granular::Notices& notices)
-  : RowsInput(input, "rows")
+  : RowsInput(input)
 {
   const LocalRows rows(input);
   auto* lines = vtkPolyData::SafeDownCast(input);

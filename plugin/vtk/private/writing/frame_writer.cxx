@@ -71,10 +71,11 @@ void FrameWriter::Write(vtkDataObject* input, const FrameTime& time, granular::N
   this->WriteRows(data->View, notices, progress);
 }
 
-RowsFile::RowsFile(const char* path, granular::DumpFormat format,
-  const granular::WriteOptions& options, granular::Communicator& ranks)
+RowsFile::RowsFile(const std::string& path, granular::DumpFormat format,
+  const granular::WriteOptions& options, granular::Communicator& ranks, TakePart take)
   : FrameWriter(path, ranks)
   , Writer(path, std::move(format), options, ranks)
+  , Taking(std::move(take))
 {
 }
 
@@ -84,17 +85,7 @@ void RowsFile::WriteRows(
   this->Writer.write(own, notices, progress);
 }
 
-bool RowsFile::TellsStep(const FrameTime&) const
-{
-  return true;
-}
-
-void RowsFile::Finish()
-{
-  this->Writer.finish();
-}
-
-WholeFile::WholeFile(const char* path, bool holdsMany, const granular::WriteOptions& options,
+WholeFile::WholeFile(const std::string& path, bool holdsMany, const granular::WriteOptions& options,
   granular::Communicator& ranks)
   : FrameWriter(path, ranks)
   , Writer(path, holdsMany, options, ranks)
@@ -114,11 +105,6 @@ void WholeFile::WriteRows(
 bool WholeFile::TellsStep(const FrameTime& time) const
 {
   return granular::is_name_of_steps(this->Path) && !time.Step;
-}
-
-void WholeFile::Finish()
-{
-  this->Writer.finish();
 }
 
 std::optional<granular::Dialect> DialectOf(int property)

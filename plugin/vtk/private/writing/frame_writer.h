@@ -10,6 +10,7 @@
 
 #include "vtkType.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,17 +70,28 @@ protected:
 class RowsFile : public FrameWriter
 {
 public:
-  RowsFile(const char* path, granular::DumpFormat format, const granular::WriteOptions& options,
-    granular::Communicator& ranks);
+  using TakePart =
+    std::function<std::unique_ptr<RowsInput>(vtkDataObject* input, granular::Notices& notices)>;
 
-  void Finish() final;
+  /**
+   * take: see FrameWriter::Take.
+   */
+  RowsFile(const std::string& path, granular::DumpFormat format,
+    const granular::WriteOptions& options, granular::Communicator& ranks, TakePart take);
+
+  void Finish() final { this->Writer.finish(); }
 
 private:
+  std::unique_ptr<RowsInput> Take(vtkDataObject* input, granular::Notices& notices) final
+  {
+    return this->Taking(input, notices);
+  }
   void WriteRows(
     const granular::FrameView& own, granular::Notices& notices, granular::Progress& progress) final;
-  bool TellsStep(const FrameTime& time) const final;
+  bool TellsStep(const FrameTime&) const final { return true; }
 
   granular::DumpWriter Writer;
+  const TakePart Taking;
 };
 
 /**
@@ -91,10 +103,10 @@ public:
   /**
    * holdsMany: as for granular::WholeWriter.
    */
-  WholeFile(const char* path, bool holdsMany, const granular::WriteOptions& options,
+  WholeFile(const std::string& path, bool holdsMany, const granular::WriteOptions& options,
     granular::Communicator& ranks);
 
-  void Finish() final;
+  void Finish() final { this->Writer.finish(); }
 
 protected:
   /**
