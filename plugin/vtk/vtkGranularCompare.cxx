@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularCompare.h"
 
+#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/particles.h"
 #include "private/dump/shared_names.h"
+#include "private/local/chosen_lines.h"
 #include "private/local/local_rows.h"
-#include "private/paths/changed_lines.h"
 #include "private/paths/changed_rows.h"
 #include "private/paths/kept_frames.h"
-#include "private/paths/read_numbers.h"
 #include "private/request/expect_data.h"
 #include "private/request/request_task.h"
 
-#include "granular/common/words.h"
+#include "granular/euler/grain_values.h"
+#include "granular/grid/sphere_box.h"
+#include "granular/local/ids.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/particles/point_forms.h"
 #include "granular/paths/compare_lines.h"
 #include "granular/paths/compare_particles.h"
 #include "granular/paths/fragments.h"
@@ -32,6 +34,7 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
@@ -43,8 +46,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -54,44 +55,7 @@ vtkStandardNewMacro(vtkGranularCompare);
 namespace
 {
 using granular::Change;
-using Rows = std::vector<vtkIdType>;
-
-/**
- * The numeric arrays of particles that a rank knows, but for ids.
- */
-struct KnownArrays
-{
-  bool HasParticles = false;
-  std::vector<std::string> Names;
-  std::vector<int> Sizes;
-};
-
-template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<KnownArrays>& known)
-{
-  archive.number(known.HasParticles);
-  granular::pass(archive, known.Names);
-  granular::pass(archive, known.Sizes);
-}
-
-/**
- * Returns what the ranks with particles know; if none has particles, what the last rank knows.
- */
-KnownArrays ShareArrays(const granular::FrameView& view, granular::Communicator& ranks)
-{
-  KnownArrays own{ view.rows > 0, {}, {} };
-  for (const granular::ArrayView& array : view.arrays)
-  {
-    if (array.type != granular::ValueType::Text && array.name != "id")
-    {
-      own.Names.push_back(array.name);
-      own.Sizes.push_back(array.size());
-    }
-  }
-  const std::vector<KnownArrays> all = granular::gather(ranks, own);
-  const auto best = std::ranges::find_if(all, &KnownArrays::HasParticles);
-  return best == all.end() ? all.back() : *best;
-}
+using Rows = std::vector<std::int64_t>;
 
 /**
  * Returns the names of the arrays that both frames have alike.
@@ -135,6 +99,58 @@ vtkSmartPointer<vtkAbstractArray> Spread(
   return array;
 }
 
+/**
+ * Returns the changes of some rows, and of as many lost ones behind them.
+ */
+std::vector<Change> PickChanges(
+  const std::vector<Change>& changes, const Rows& rows, std::size_t lost)
+{
+  std::vector<Change> picked(rows.size() + lost, Change::Lost);
+  std::ranges::transform(
+    rows, picked.begin(), [&](std::int64_t row) { return changes[static_cast<std::size_t>(row)]; });
+  return picked;
+}
+
+auto MakeChanges(const std::vector<Change>& changes)
+{
+  return ArrayOf<vtkTypeInt32Array>(
+    "change", changes, [](Change change) { return static_cast<vtkTypeInt32>(change); });
+}
+
+/**
+ * Returns the masses of some rows: those of an array, otherwise of spheres by density and radius. Nothing if a rank with
+ * particles has neither, or no rank has particles. Throws Error for arrays of more than one number a particle, or of texts.
+ * Collective.
+ */
+std::optional<std::vector<double>> ReadMasses(const granular::FrameView& view,
+  const std::string& name, const Rows& rows, granular::Communicator& ranks)
+{
+  const auto [velocity, radius, mass, density, stress] =
+    granular::find_grain_sources(view, { "", "radius", name, "" });
+  const bool known = mass || density;
+  std::array<std::int64_t, 2> counts = { view.rows > 0 && known ? 1 : 0,
+    view.rows > 0 && !known ? 1 : 0 };
+  ranks.sum(counts);
+  if (counts[0] == 0 || counts[1] > 0)
+  {
+    return {};
+  }
+  std::vector<double> masses(rows.size());
+  if (mass)
+  {
+    granular::load_rows({ &*mass, 1 }, rows, masses.data());
+  }
+  else if (density)
+  {
+    std::vector<double> radii(rows.size());
+    granular::load_rows({ &*density, 1 }, rows, masses.data());
+    granular::load_rows({ &*radius, 1 }, rows, radii.data());
+    std::ranges::transform(masses, radii, masses.begin(),
+      [](double each, double r) { return each * granular::sphere_volume(r); });
+  }
+  return masses;
+}
+
 ArrayForm FormOf(vtkAbstractArray* array)
 {
   return { array->GetName(), array->GetDataType(), array->GetNumberOfComponents() };
@@ -158,17 +174,6 @@ private:
     }
     this->TellOfFrames();
   }
-
-  /**
-   * Counts over all processes.
-   */
-  struct Counts
-  {
-    std::int64_t Far = 0;         ///< particles whose shortest image may be wrong
-    std::int64_t Kept = 0;        ///< particles
-    std::int64_t Lines = 0;       ///< of the current frame
-    std::int64_t Unconnected = 0; ///< of these, without a particle at an end
-  };
 
   void ReadFrames()
   {
@@ -236,10 +241,8 @@ private:
       this->FindFragments();
     }
     this->FillParticles();
-    std::array<std::int64_t, 2> sums = { this->All.Kept, this->All.Lines };
-    this->Group.sum(sums);
-    this->All.Kept = sums[0];
-    this->All.Lines = sums[1];
+    this->Group.sum({ &this->Kept, 1 });
+    this->Group.sum({ &this->Lines, 1 });
   }
 
   /**
@@ -274,8 +277,8 @@ private:
   {
     this->Particles[0].emplace(this->Current[0], this->Ranks);
     this->Particles[1].emplace(this->Reference[0], this->Ranks);
-    const granular::FrameView& view = this->Particles[0]->View();
-    const granular::FrameView& reference = this->Particles[1]->View();
+    const granular::FrameView& view = this->Particles[0]->View;
+    const granular::FrameView& reference = this->Particles[1]->View;
     granular::ParticleCompareRequest request;
     request.threads = this->Threads;
     request.differences = NamesIn(this->Self->Differences,
@@ -283,14 +286,12 @@ private:
     this->Progress.set_part(0.1, 0.6);
     this->Compared =
       granular::compare_particles(view, reference, request, this->Group, this->Progress);
-    this->All.Far = this->Compared.far;
-    for (vtkIdType row = 0; row < view.rows; ++row)
+    for (std::int64_t row = 0; row < view.rows; ++row)
     {
       if (!view.is_duplicate(row))
       {
         this->ParticleRows.push_back(row);
-        this->All.Kept +=
-          this->Compared.changes[static_cast<std::size_t>(row)] == Change::Kept ? 1 : 0;
+        this->Kept += this->Compared.changes[static_cast<std::size_t>(row)] == Change::Kept ? 1 : 0;
       }
     }
   }
@@ -310,51 +311,47 @@ private:
         rows[i]->ReadIds("id2", this->Progress) };
     }
     this->LackPlaces = rows[0]->LackPlaces();
-    this->All.Lines = rows[0]->Count();
+    this->Lines = rows[0]->Count();
     const granular::LineChanges changes = granular::compare_lines(
       { this->Ends[0][0], this->Ends[0][1] }, { this->Ends[1][0], this->Ends[1][1] }, this->Group);
     Rows all(static_cast<std::size_t>(rows[0]->Count()));
-    std::iota(all.begin(), all.end(), vtkIdType{ 0 });
+    std::iota(all.begin(), all.end(), 0);
     Rows lost;
-    for (vtkIdType row = 0; row < rows[1]->Count(); ++row)
+    for (std::int64_t row = 0; row < rows[1]->Count(); ++row)
     {
       if (changes.reference[static_cast<std::size_t>(row)] == Change::Lost)
       {
         lost.push_back(row);
       }
     }
-    FillLines({ inputs[0], &*rows[0], this->PartOf(all) },
-      { inputs[1], &*rows[1], this->PartOf(lost) }, changes.current, this->Group,
-      this->Outputs[port]);
-    this->AddAges(this->Outputs[port]->GetCellData());
-  }
-
-  /**
-   * Lines that were kept are as old as the reference frame, at least.
-   */
-  void AddAges(vtkCellData* data) const
-  {
-    vtkDataArray* changes = data->GetArray("change");
-    vtkNew<vtkDoubleArray> ages;
-    ages->SetName("age");
-    for (vtkIdType line = 0; line < changes->GetNumberOfTuples(); ++line)
-    {
-      const auto change = static_cast<Change>(static_cast<int>(changes->GetComponent(line, 0)));
-      ages->InsertNextValue(change == Change::Kept ? this->Passed
-          : change == Change::New                  ? 0
-                                                   : std::numeric_limits<double>::quiet_NaN());
-    }
-    data->AddArray(ages);
+    vtkPolyData* output = this->Outputs[port];
+    const ChosenCells now = AddLines({ inputs[0], &*rows[0], this->PartOf(all) }, output);
+    const ChosenCells before = AddLines({ inputs[1], &*rows[1], this->PartOf(lost) }, output);
+    vtkCellData* data = output->GetCellData();
+    ChangedRows(now.All, before.All)
+      .Pass(inputs[0]->GetCellData(), inputs[1]->GetCellData(), this->Group, data);
+    const std::vector<Change> both = PickChanges(changes.current, now.Rows, before.All.size());
+    data->AddArray(MakeChanges(both));
+    // lines that were kept are as old as the reference frame, at least
+    data->AddArray(ArrayOf<vtkDoubleArray>("age", both,
+      [this](Change change)
+      {
+        return change == Change::Kept ? this->Passed
+          : change == Change::New     ? 0
+                                      : std::numeric_limits<double>::quiet_NaN();
+      }));
   }
 
   void FindFragments()
   {
-    const granular::FrameView& view = this->Particles[0]->View();
+    const granular::FrameView& view = this->Particles[0]->View;
     this->Progress.set_part(0.7, 0.8);
     std::vector<std::int64_t> ids;
     if (const granular::ArrayView* array = view.find("id"))
     {
-      ids = ReadIds(*array, view.rows, this->ParticleRows, this->Progress);
+      const granular::Ids all(*array, view.rows, granular::Executor(), this->Progress);
+      std::ranges::transform(this->ParticleRows, std::back_inserter(ids),
+        [&](std::int64_t row) { return all.values()[static_cast<std::size_t>(row)]; });
     }
     const auto masses = ReadMasses(view, this->Self->MassArray, this->ParticleRows, this->Group);
     this->Progress.set_part(0.8, 0.9);
@@ -362,7 +359,7 @@ private:
     const granular::Fragments found = granular::find_fragments(ids,
       masses ? std::optional(std::span<const double>(*masses)) : std::nullopt, this->Ends[0][0],
       this->Ends[0][1], this->Group);
-    this->All.Unconnected = found.missing;
+    this->Unconnected = found.missing;
     const Rows& rows = this->ParticleRows;
     this->Made.push_back(Spread<vtkTypeInt64Array>("fragment", found.labels, rows, view.rows));
     this->Made.push_back(Spread<vtkTypeInt64Array>("fragment_size", found.sizes, rows, view.rows));
@@ -376,16 +373,13 @@ private:
   {
     auto* current = vtkPointSet::SafeDownCast(this->Current[0]);
     auto* reference = vtkPointSet::SafeDownCast(this->Reference[0]);
-    const granular::FrameView& view = this->Particles[0]->View();
+    const granular::FrameView& view = this->Particles[0]->View;
     const Rows rows = this->PartOf(this->ParticleRows);
-    const Rows lost = this->PartOf(Rows(this->Compared.lost.begin(), this->Compared.lost.end()));
-    const ChangedRows both(rows, view.rows, lost);
-    vtkPolyData* output = this->Outputs[0];
-    vtkPointData* data = output->GetPointData();
-    both.Pass(ShareForms(current->GetPointData(), view.rows, reference->GetPointData(),
-                reference->GetNumberOfPoints(), this->Group),
-      current->GetPointData(), reference->GetPointData(), data);
-    data->AddArray(MakeChanges(this->Compared.changes, rows, lost.size()));
+    const Rows lost = this->PartOf(this->Compared.lost);
+    const ChangedRows both(rows, lost);
+    vtkPointData* data = this->Outputs[0]->GetPointData();
+    both.Pass(current->GetPointData(), reference->GetPointData(), this->Group, data);
+    data->AddArray(MakeChanges(PickChanges(this->Compared.changes, rows, lost.size())));
     std::vector<vtkSmartPointer<vtkAbstractArray>> made = { TakeDoubles(
       "displacement", this->Compared.displacements, view.rows, 3) };
     for (granular::DifferenceArray& array : this->Compared.differences)
@@ -416,19 +410,19 @@ private:
 
   void TellOfFrames()
   {
-    this->Tell(this->All.Far > 0, "far",
-      std::to_string(this->All.Far) +
+    this->Tell(this->Compared.far > 0, "far",
+      std::to_string(this->Compared.far) +
         " particles moved more than a quarter of a period of the box: their displacement may be "
         "wrong by periods. Unwrapped points, or ix iy iz in the dump, make it exact");
     const bool boxless = this->Particles[0] && !this->Compared.unwrapped &&
-      !this->Particles[0]->View().has_box && !this->Particles[1]->View().has_box;
-    this->Tell(boxless && this->All.Kept > 0, "no box",
+      !this->Particles[0]->View.has_box && !this->Particles[1]->View.has_box;
+    this->Tell(boxless && this->Kept > 0, "no box",
       "neither frame has a box in its field data (BoxOrigin, BoxVectors): displacements across "
       "periodic faces are those of the points");
-    this->Tell(this->All.Unconnected > 0, "unconnected",
-      std::to_string(this->All.Unconnected) + " of " + std::to_string(this->All.Lines) +
+    this->Tell(this->Unconnected > 0, "unconnected",
+      std::to_string(this->Unconnected) + " of " + std::to_string(this->Lines) +
         " lines name a particle that is not there: they connect no fragments");
-    this->Tell(!this->LateFirst.empty() && this->All.Kept > 0, "first frame",
+    this->Tell(!this->LateFirst.empty() && this->Kept > 0, "first frame",
       "the first frame has no particles: the reference is the frame of time " + this->LateFirst);
     this->Tell(this->LackPlaces, "no places",
       "the input Lines has no lines, as its file does not say where these are: draw the rows, the "
@@ -446,8 +440,10 @@ private:
   std::array<std::array<std::vector<std::int64_t>, 2>, 2> Ends; ///< of the lines of both frames
   std::vector<vtkSmartPointer<vtkAbstractArray>> Made;          ///< of fragments
   bool LackPlaces = false;
-  std::string LateFirst; ///< time of the reference, if frames before it have no particles
-  Counts All;
+  std::string LateFirst;        ///< time of the reference, if frames before it have no particles
+  std::int64_t Kept = 0;        ///< particles, in the end of all processes
+  std::int64_t Lines = 0;       ///< of the current frame, the same
+  std::int64_t Unconnected = 0; ///< of these, without a particle at an end
 };
 
 //------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularContactSums.h"
 
+#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/arrays/made_arrays.h"
 #include "private/contacts/contact_input.h"
@@ -11,7 +12,6 @@
 #include "granular/contacts/contact_sums.h"
 #include "granular/numbers/number_print.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDoubleArray.h"
@@ -26,14 +26,12 @@
 #include "vtkTypeInt32Array.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -58,17 +56,14 @@ constexpr MadeArray Arrays[] = {
 };
 
 /**
- * An array that takes over the memory of integers, one a row.
+ * An array of integers, one a row.
  */
 template <class Array>
-vtkSmartPointer<Array> TakeIntegers(const char* name, granular::Block& block, vtkIdType rows)
+vtkSmartPointer<Array> IntegersOf(const char* name, const granular::Block& block, vtkIdType rows)
 {
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(rows);
-  const auto* const from = static_cast<const typename Array::ValueType*>(block.data());
-  std::copy_n(from, rows, array->GetPointer(0));
-  return array;
+  using Value = typename Array::ValueType;
+  return ArrayOf<Array>(
+    name, std::span(static_cast<const Value*>(block.data()), static_cast<std::size_t>(rows)));
 }
 
 void ExpectNumber(const char* name, double value, bool zero)
@@ -121,19 +116,18 @@ private:
     wanted.Torque = this->IsOn("contact_torque");
     wanted.Point = arms && this->Self->LeverArm == CONTACT_POINT;
     wanted.Overlap = this->Self->MinimumOverlap > 0;
-    constexpr Touched touched[] = { Touched::Particles, Touched::Walls };
+    this->Rows.emplace(this->Contacts, wanted, this->Progress);
     for (std::size_t port = 0; port < 2; ++port)
     {
-      if (this->Contacts[port])
+      if (const std::optional<ContactInput>& input = this->Rows->Each[port])
       {
-        // walls must say where they are
-        wanted.Point = wanted.Point || (port == 1 && !vtkPointSet::SafeDownCast(this->Contacts[1]));
-        this->Rows[port].emplace(this->Contacts[port], touched[port], wanted, this->Progress);
+        this->All[port] = input->GetLines().Count();
         this->LackForces = this->LackForces ||
-          (wanted.Force && this->Rows[port]->GetRows().count > 0 &&
-            this->Rows[port]->GetRows().force.empty());
-        this->Inputs.push_back(this->Rows[port]->GetRows());
-        this->All[port] = static_cast<vtkTypeInt64>(this->Inputs.back().count);
+          (wanted.Force && this->All[port] > 0 && input->GetRows().force.empty());
+        this->LackPlaces = this->LackPlaces || input->GetLines().LackPlaces();
+        const std::string remark =
+          CompareTimesteps(this->Particles->GetFieldData(), input->GetLines().GetFieldData());
+        this->Remark = this->Remark.empty() ? remark : this->Remark;
       }
     }
   }
@@ -158,16 +152,7 @@ private:
     request.threads = this->Threads;
     this->Progress.set_part(0.1, 0.95);
     this->Sums = granular::sum_contacts(
-      this->Input->View(), this->Inputs, request, this->Group, this->Progress);
-    for (std::size_t port = 0; port < 2; ++port)
-    {
-      if (this->Rows[port])
-      {
-        const std::string remark = CompareTimesteps(
-          this->Particles->GetFieldData(), this->Rows[port]->GetLines().GetFieldData());
-        this->Remark = this->Remark.empty() ? remark : this->Remark;
-      }
-    }
+      this->Input->View, this->Rows->Rows, request, this->Group, this->Progress);
     this->Group.sum(this->All);
   }
 
@@ -176,11 +161,11 @@ private:
    */
   void AddArrays(vtkPointData* data)
   {
-    const vtkIdType rows = this->Input->View().rows;
+    const vtkIdType rows = this->Input->View.rows;
     granular::ContactSums& sums = this->Sums;
     if (this->IsOn("coordination"))
     {
-      data->AddArray(TakeIntegers<vtkTypeInt32Array>("coordination", sums.coordination, rows));
+      data->AddArray(IntegersOf<vtkTypeInt32Array>("coordination", sums.coordination, rows));
     }
     const auto add = [&](const char* name, granular::Block& block, int components)
     {
@@ -203,12 +188,12 @@ private:
     add("von_mises", sums.von_mises, 1);
     if (this->IsOn("rattler"))
     {
-      data->AddArray(TakeIntegers<vtkUnsignedCharArray>("rattler", sums.rattlers, rows));
+      data->AddArray(IntegersOf<vtkUnsignedCharArray>("rattler", sums.rattlers, rows));
     }
     if (this->IsOn("coordination_without_rattlers"))
     {
       data->AddArray(
-        TakeIntegers<vtkTypeInt32Array>("coordination_without_rattlers", sums.backbone, rows));
+        IntegersOf<vtkTypeInt32Array>("coordination_without_rattlers", sums.backbone, rows));
     }
   }
 
@@ -283,39 +268,26 @@ private:
   {
     auto* output = this->GetOutput<vtkPolyData>(1);
     auto* input = vtkPointSet::SafeDownCast(this->Contacts[0]);
-    if (this->Sums.friction.empty() || !this->Rows[0] || !input)
+    if (this->Sums.friction.empty() || !input)
     {
       return;
     }
-    const LocalRows& rows = this->Rows[0]->GetLines();
+    const LocalRows& rows = this->Rows->Each[0]->GetLines();
     const auto [first, last] = this->RangeOf(rows.Count());
-    std::vector<vtkIdType> wanted(static_cast<std::size_t>(last - first));
+    std::vector<std::int64_t> wanted(static_cast<std::size_t>(last - first));
     std::iota(wanted.begin(), wanted.end(), first);
-    const ChosenCells cells = FindCells({ input, &rows, wanted });
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    output->SetPoints(points);
-    vtkNew<vtkCellArray> lines;
-    output->SetLines(lines);
-    AddLines(input, cells.All, output);
+    const ChosenCells cells = AddLines({ input, &rows, wanted }, output);
     rows.PassCells(cells.All, output->GetCellData());
     const auto* const friction = static_cast<const double*>(this->Sums.friction[0].data());
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(FrictionArray);
-    for (const vtkIdType row : cells.Rows)
-    {
-      array->InsertNextValue(friction[row] / this->Self->FrictionCoefficient);
-    }
-    output->GetCellData()->AddArray(array);
+    output->GetCellData()->AddArray(ArrayOf<vtkDoubleArray>(FrictionArray, cells.Rows,
+      [&](std::int64_t row) { return friction[row] / this->Self->FrictionCoefficient; }));
     output->GetFieldData()->PassData(input->GetFieldData());
   }
 
   void TellOfContacts()
   {
     const std::string ofAll = " of " + std::to_string(this->All[0] + this->All[1]) + " contacts ";
-    const bool lack = (this->Rows[0] && this->Rows[0]->GetLines().LackPlaces()) ||
-      (this->Rows[1] && this->Rows[1]->GetLines().LackPlaces());
-    this->Tell(lack && this->All[0] + this->All[1] == 0, "no places",
+    this->Tell(this->LackPlaces && this->All[0] + this->All[1] == 0, "no places",
       "an input has no lines, as its file does not say where these are: take the rows, the second "
       "output of the reader");
     this->Tell(this->Sums.missing > 0, "missing",
@@ -342,12 +314,12 @@ private:
   /// between particles, with walls
   const std::array<vtkDataObject*, 2> Contacts = { this->GetInput(1), this->GetInput(2) };
   std::optional<vtkGranularPrivate::Particles> Input;
-  std::array<std::optional<ContactInput>, 2> Rows;
-  std::vector<granular::ContactRows> Inputs;
+  std::optional<ContactInputs> Rows;
   granular::ContactSums Sums;
   std::array<std::int64_t, 2> All = {}; ///< contacts of all processes
   std::string Remark;
   bool LackForces = false;
+  bool LackPlaces = false;
 };
 
 //------------------------------------------------------------------------------

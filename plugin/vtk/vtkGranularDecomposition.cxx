@@ -2,24 +2,22 @@
 #include "vtkGranularDecomposition.h"
 
 #include "private/arrays/arrays.h"
-#include "private/decomposition/decomposition_algorithm.h"
+#include "private/decomposition/voxels.h"
 #include "private/dump/particles.h"
 #include "private/request/request_task.h"
 
 #include "granular/decomposition/count_particles.h"
+#include "granular/decomposition/process_grid.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -68,6 +66,7 @@ private:
     this->Group.sum(counts.particles);
     this->SetOutside(counts.outside);
     std::vector<granular::Subdomain>& all = this->Found.subdomains;
+    this->Processes = static_cast<std::int64_t>(all.size());
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       all[i].particles = counts.particles[i];
@@ -78,11 +77,10 @@ private:
   {
     const auto [lo, hi] = this->Input->FindBounds(
       this->Self->Bounds, "the subdomains of its processes are tilted, too, and no voxels");
-    const granular::ProcessGrid grid = this->Self->Shared->MakeGrid(this->Self, lo, hi);
+    const granular::ProcessGrid grid = this->Self->MakeGrid(lo.data(), hi.data());
     this->Found.subdomains = grid.subdomains(0, grid.size());
     this->SetCounts(granular::count_in_grid(
-      this->Input->View(), grid, granular::Executor(this->Threads), this->Progress));
-    this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
+      this->Input->View, grid, granular::Executor(this->Threads), this->Progress));
   }
 
   void CountInSubdomains()
@@ -97,15 +95,14 @@ private:
     granular::SubdomainChecks checks;
     checks.gap = granular::Answer::None; // who is in one is outside, which is told
     granular::check_subdomains(this->Found.subdomains, checks, {}, this->Notices, this->Progress);
-    this->SetCounts(granular::count_in_subdomains(this->Input->View(), this->Found.subdomains,
+    this->SetCounts(granular::count_in_subdomains(this->Input->View, this->Found.subdomains,
       granular::Executor(this->Threads), this->Progress));
-    this->Processes = static_cast<std::int64_t>(this->Found.subdomains.size());
   }
 
   void FindByArray()
   {
     granular::ParticleBounds own;
-    const granular::FrameView& view = this->Input->View();
+    const granular::FrameView& view = this->Input->View;
     const std::string& name = this->Self->ProcessArray;
     const granular::ArrayView* process = view.find(name);
     if (view.rows > 0 && !process)
@@ -130,7 +127,7 @@ private:
   void FindByRank()
   {
     granular::ParticleBounds own = granular::bounds_of_particles(
-      this->Input->View(), granular::Executor(this->Threads), this->Progress);
+      this->Input->View, granular::Executor(this->Threads), this->Progress);
     for (granular::Subdomain& subdomain : own.subdomains)
     {
       subdomain.rank = this->Ranks.rank();
@@ -167,7 +164,7 @@ private:
    */
   void Scale(std::vector<granular::Subdomain>& subdomains) const
   {
-    const granular::FrameView& view = this->Input->View();
+    const granular::FrameView& view = this->Input->View;
     if (view.coordinates != granular::Coordinates::Scaled)
     {
       return;
@@ -192,7 +189,7 @@ private:
     granular::Decomposition part = this->TakePart();
     this->Scale(part.subdomains);
     auto* output = this->GetOutput<vtkUnstructuredGrid>();
-    FillVoxels(output, part, { this->Input->View().point_origin, this->Threads }, this->Progress);
+    FillVoxels(output, part, { this->Input->View.point_origin, this->Threads }, this->Progress);
     vtkFieldData* data = output->GetFieldData();
     data->PassData(this->GetInput(0)->GetFieldData());
     data->AddArray(MakeDoubles(

@@ -1,50 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionAlgorithm.h"
 
-#include "private/decomposition/decomposition_algorithm.h"
+#include "granular/decomposition/process_grid.h"
 
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 
-using namespace vtkGranularPrivate;
-
 //------------------------------------------------------------------------------
-granular::ProcessGrid vtkGranularDecompositionAlgorithm::Internals::MakeGrid(
-  vtkGranularDecompositionAlgorithm* self, const granular::Vector3& lo,
-  const granular::Vector3& hi) const
+granular::ProcessGrid vtkGranularDecompositionAlgorithm::MakeGrid(
+  const double* lo, const double* hi) const
 {
   granular::GridRequest request;
-  request.lo = lo;
-  request.hi = hi;
-  request.processes = self->NumberOfProcesses;
-  std::copy_n(self->ProcessorGrid, 3, request.grid.begin());
-  request.cuts = this->Cuts;
+  std::copy_n(lo, 3, request.lo.begin());
+  std::copy_n(hi, 3, request.hi.begin());
+  request.processes = this->NumberOfProcesses;
+  std::copy_n(this->ProcessorGrid, 3, request.grid.begin());
+  std::copy_n(this->Cuts, 3, request.cuts.begin());
   return granular::make_process_grid(request);
 }
 
 //------------------------------------------------------------------------------
-vtkGranularDecompositionAlgorithm::vtkGranularDecompositionAlgorithm()
-  : Shared(std::make_unique<Internals>())
-{
-}
-
-//------------------------------------------------------------------------------
-vtkGranularDecompositionAlgorithm::~vtkGranularDecompositionAlgorithm() = default;
-
-//------------------------------------------------------------------------------
 void vtkGranularDecompositionAlgorithm::AddCut(int axis, double position)
 {
-  this->Shared->Cuts[axis].push_back(position);
+  this->Cuts[axis].push_back(position);
   this->Modified();
 }
 
 //------------------------------------------------------------------------------
 void vtkGranularDecompositionAlgorithm::ClearCuts(int axis)
 {
-  if (!this->Shared->Cuts[axis].empty())
+  if (!this->Cuts[axis].empty())
   {
-    this->Shared->Cuts[axis].clear();
+    this->Cuts[axis].clear();
     this->Modified();
   }
 }
@@ -52,7 +40,7 @@ void vtkGranularDecompositionAlgorithm::ClearCuts(int axis)
 //------------------------------------------------------------------------------
 int vtkGranularDecompositionAlgorithm::GetNumberOfCuts(int axis)
 {
-  return axis >= 0 && axis < 3 ? static_cast<int>(this->Shared->Cuts[axis].size()) : 0;
+  return axis >= 0 && axis < 3 ? static_cast<int>(this->Cuts[axis].size()) : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -77,7 +65,7 @@ void vtkGranularDecompositionAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   print("Bounds", this->Bounds);
   os << indent << "NumberOfProcesses: " << this->NumberOfProcesses << "\n";
   print("ProcessorGrid", this->ProcessorGrid);
-  print("XCuts", this->Shared->Cuts[0]);
-  print("YCuts", this->Shared->Cuts[1]);
-  print("ZCuts", this->Shared->Cuts[2]);
+  print("XCuts", this->Cuts[0]);
+  print("YCuts", this->Cuts[1]);
+  print("ZCuts", this->Cuts[2]);
 }

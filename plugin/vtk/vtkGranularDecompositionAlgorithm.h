@@ -16,9 +16,14 @@
 #include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
-#include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
 class vtkUnstructuredGrid;
+
+namespace granular
+{
+struct ProcessGrid;
+}
 
 class VTKGRANULAR_EXPORT vtkGranularDecompositionAlgorithm : public vtkGranularAlgorithm
 {
@@ -73,15 +78,18 @@ public:
   ///@}
 
 protected:
-  vtkGranularDecompositionAlgorithm();
-  ~vtkGranularDecompositionAlgorithm() override;
+  vtkGranularDecompositionAlgorithm() = default;
+  ~vtkGranularDecompositionAlgorithm() override = default;
+
+  /**
+   * Returns the grid that the properties define in a box from lo to hi.
+   */
+  granular::ProcessGrid MakeGrid(const double* lo, const double* hi) const;
 
   double Bounds[6] = { 0, 1, 0, 1, 0, 1 };
   int NumberOfProcesses = 0;
   int ProcessorGrid[3] = { 1, 1, 1 };
-
-  struct Internals;
-  std::unique_ptr<Internals> Shared;
+  std::vector<double> Cuts[3];
 
 private:
   vtkGranularDecompositionAlgorithm(const vtkGranularDecompositionAlgorithm&) = delete;

@@ -29,6 +29,8 @@ protected:
 private:
   vtkGranularDecompositionSource(const vtkGranularDecompositionSource&) = delete;
   void operator=(const vtkGranularDecompositionSource&) = delete;
+
+  class Task;
 };
 
 #endif

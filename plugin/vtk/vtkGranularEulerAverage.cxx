@@ -14,13 +14,14 @@
 #include "granular/euler/time_average.h"
 #include "granular/numbers/number_print.h"
 
+#include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -52,6 +53,18 @@ class vtkGranularEulerAverage::Task : public FilterTask<vtkGranularEulerAverage,
 {
 public:
   using FilterTask::FilterTask;
+
+  /**
+   * Returns what the properties say of the cells, but for the bounds and the largest diameter.
+   */
+  static granular::EulerGridRequest DescribeCells(const vtkGranularEulerAverage& self)
+  {
+    granular::EulerGridRequest request;
+    request.by = static_cast<granular::EulerGridRequest::By>(self.CellsBy);
+    std::copy_n(self.CellCounts, 3, request.counts.begin());
+    std::copy_n(self.CellSize, 3, request.size.begin());
+    return request;
+  }
 
 private:
   void Average() override
@@ -105,7 +118,7 @@ private:
   granular::EulerAverages AverageFrame(const FrameInputs& inputs)
   {
     this->Grains.emplace(inputs[0], this->Ranks);
-    granular::FrameView& view = this->Grains->View();
+    granular::FrameView& view = this->Grains->View;
     granular::EulerAverageRequest request;
     this->Choose(request, this->Self->StressArray);
     if (this->HaveContacts() && !request.arrays.stress.empty())
@@ -142,6 +155,7 @@ private:
       view.header.box.boundary = boundary; // a contact crosses a face, though nothing has images
       granular::average_contacts(this->FindContacts(inputs, request.tensors, executor, progress),
         view.has_box ? &box : nullptr, request, this->Group, executor, progress, averages);
+      this->Ends.reset();
       this->Contacts.reset();
     }
     this->Outside += averages.outside;
@@ -151,28 +165,17 @@ private:
 
   granular::EulerGrid MakeGrid(double largestRadius) const
   {
-    granular::EulerGridRequest request;
-    std::tie(request.lo, request.hi) = this->Grains->FindBounds(this->Self->Bounds, nullptr);
     const vtkGranularEulerAverage& self = *this->Self;
-    switch (self.CellsBy)
+    granular::EulerGridRequest request = DescribeCells(self);
+    std::tie(request.lo, request.hi) = this->Grains->FindBounds(self.Bounds, nullptr);
+    if (self.CellsBy == RELATIVE_SIZE)
     {
-      case COUNTS:
-        std::copy_n(self.CellCounts, 3, request.counts.begin());
-        request.by = granular::EulerGridRequest::By::Counts;
-        break;
-      case SIZE:
-        std::copy_n(self.CellSize, 3, request.size.begin());
-        request.by = granular::EulerGridRequest::By::Size;
-        break;
-      case RELATIVE_SIZE:
-        if (!(self.CellSizeRelative > 0))
-        {
-          throw granular::Error(
-            "expected a CellSizeRelative above 0, got " + granular::to_text(self.CellSizeRelative));
-        }
-        request.cutoff = self.CellSizeRelative * 2 * largestRadius;
-        request.by = granular::EulerGridRequest::By::Cutoff;
-        break;
+      if (!(self.CellSizeRelative > 0))
+      {
+        throw granular::Error(
+          "expected a CellSizeRelative above 0, got " + granular::to_text(self.CellSizeRelative));
+      }
+      request.cutoff = self.CellSizeRelative * 2 * largestRadius;
     }
     granular::EulerGrid grid = granular::make_euler_grid(request);
     for (std::size_t axis = 0; self.OutputType == PROFILE && axis < 3; ++axis)
@@ -205,7 +208,7 @@ private:
 
   void Fill() override
   {
-    const granular::FrameView& view = this->Grains->View();
+    const granular::FrameView& view = this->Grains->View;
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
     const granular::Vector3 origin = scaled ? granular::Vector3{} : view.point_origin;
     const granular::EulerFrame frame = this->TakeFrame();
@@ -245,19 +248,14 @@ private:
 int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
+  constexpr const char* types[] = { "vtkPolyData", "vtkImageData", "vtkTable" };
+  const char* const type = types[this->OutputType];
   vtkInformation* info = outputVector->GetInformationObject(0);
   vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (this->OutputType == POINTS && !vtkPolyData::SafeDownCast(output))
+  if (!output || !output->IsA(type))
   {
-    info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkPolyData>());
-  }
-  if (this->OutputType == PROFILE && !vtkTable::SafeDownCast(output))
-  {
-    info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkTable>());
-  }
-  if (this->OutputType == IMAGE_DATA && !vtkImageData::SafeDownCast(output))
-  {
-    info->Set(vtkDataObject::DATA_OBJECT(), vtkNew<vtkImageData>());
+    info->Set(
+      vtkDataObject::DATA_OBJECT(), vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(type)));
   }
   return 1;
 }
@@ -308,17 +306,13 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
     {
       ExpectExtent(this->CellsBy, this->Bounds);
       const bool given = AreGiven(this->Bounds);
-      granular::EulerGridRequest request;
-      request.lo = given ? granular::Vector3{ this->Bounds[0], this->Bounds[2], this->Bounds[4] }
-                         : granular::Vector3{};
-      request.hi = given ? granular::Vector3{ this->Bounds[1], this->Bounds[3], this->Bounds[5] }
-                         : granular::Vector3{ 1, 1, 1 };
-      request.by = this->CellsBy == SIZE ? granular::EulerGridRequest::By::Size
-                                         : granular::EulerGridRequest::By::Counts;
-      std::copy_n(this->CellCounts, 3, request.counts.begin());
-      std::copy_n(this->CellSize, 3, request.size.begin());
-      const granular::EulerGrid grid = granular::make_euler_grid(request);
-      OfferExtent(info, ExtentOf(grid));
+      granular::EulerGridRequest request = Task::DescribeCells(*this);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        request.lo[axis] = given ? this->Bounds[2 * axis] : 0;
+        request.hi[axis] = given ? this->Bounds[2 * axis + 1] : 1;
+      }
+      OfferExtent(info, ExtentOf(granular::make_euler_grid(request)));
     });
   return this->Ranks->EndRequest(this, outcome);
 }

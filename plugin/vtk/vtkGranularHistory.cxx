@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularHistory.h"
 
+#include "private/arrays/array_of.h"
 #include "private/paths/path_task.h"
 
 #include "granular/common/words.h"
@@ -11,11 +12,8 @@
 #include "granular/paths/statistics.h"
 
 #include "vtkDoubleArray.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkTypeInt64Array.h"
 
@@ -32,21 +30,19 @@
 namespace vtkGranularPrivate
 {
 /**
- * A column of the table: numbers of each frame.
+ * A column of the table: the numbers of each frame, as many as the largest has; those that lack are nan.
  */
 struct Column
 {
   std::string Name;
-  int Size = 1;
-  std::vector<double> Values;
+  std::vector<std::vector<double>> Frames;
 };
 
 template <class Archive>
 void pass(Archive& archive, typename Archive::template Passed<Column>& column)
 {
   archive.text(column.Name);
-  archive.number(column.Size);
-  granular::pass(archive, column.Values);
+  granular::pass(archive, column.Frames);
 }
 }
 
@@ -56,8 +52,6 @@ vtkStandardNewMacro(vtkGranularHistory);
 
 namespace
 {
-using Pipeline = vtkStreamingDemandDrivenPipeline;
-
 constexpr std::int64_t MostParticles = 1000;
 constexpr double Nothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -82,6 +76,12 @@ std::vector<std::pair<std::string, double>> QuantilesIn(std::string list)
   return quantiles;
 }
 
+double NumberOf(const granular::PathArray& array, std::size_t word)
+{
+  return array.integers ? static_cast<double>(array.words[word])
+                        : std::bit_cast<double>(array.words[word]);
+}
+
 /**
  * The component of an array of a frame, as doubles.
  */
@@ -91,8 +91,7 @@ std::vector<double> NumbersOf(const granular::PathArray& array, int component)
   for (std::size_t i = static_cast<std::size_t>(component); i < array.words.size();
        i += static_cast<std::size_t>(array.size))
   {
-    numbers.push_back(
-      array.integers ? static_cast<double>(array.words[i]) : std::bit_cast<double>(array.words[i]));
+    numbers.push_back(NumberOf(array, i));
   }
   return numbers;
 }
@@ -131,7 +130,7 @@ private:
   {
     const granular::Paths paths = this->Join(
       this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress), false);
-    this->TakeTimesteps(paths.headers);
+    this->Headers = paths.headers;
     std::int64_t count = static_cast<std::int64_t>(paths.ids.size());
     this->Group.sum({ &count, 1 });
     if (count > MostParticles)
@@ -144,16 +143,12 @@ private:
     for (std::size_t path = 0; path < paths.ids.size(); ++path)
     {
       const std::string of = " (id " + std::to_string(paths.ids[path]) + ")";
-      columns.push_back(this->MakeColumn(
+      columns.push_back(MakeColumn(
         paths, path, "position" + of, 3, [&](std::size_t word) { return paths.points[word]; }));
       for (const granular::PathArray& array : paths.arrays)
       {
-        columns.push_back(this->MakeColumn(paths, path, array.name + of, array.size,
-          [&](std::size_t word)
-          {
-            return array.integers ? static_cast<double>(array.words[word])
-                                  : std::bit_cast<double>(array.words[word]);
-          }));
+        columns.push_back(MakeColumn(paths, path, array.name + of, array.size,
+          [&](std::size_t word) { return NumberOf(array, word); }));
       }
     }
     std::vector<Column> all;
@@ -168,30 +163,21 @@ private:
    * A column of a path; at() gives the numbers of its places one after the other.
    */
   template <typename At>
-  Column MakeColumn(const granular::Paths& paths, std::size_t path, const std::string& name,
-    int size, const At& at) const
+  static Column MakeColumn(
+    const granular::Paths& paths, std::size_t path, const std::string& name, int size, const At& at)
   {
     const auto width = static_cast<std::size_t>(size);
-    Column column{ name, size, std::vector<double>(paths.headers.size() * width, Nothing) };
+    Column column{ name, std::vector<std::vector<double>>(paths.headers.size()) };
     for (std::int64_t place = paths.begins[path]; place < paths.begins[path + 1]; ++place)
     {
       const auto from = static_cast<std::size_t>(place);
-      const auto frame = static_cast<std::size_t>(paths.frames[from]);
+      std::vector<double>& values = column.Frames[static_cast<std::size_t>(paths.frames[from])];
       for (std::size_t i = 0; i < width; ++i)
       {
-        column.Values[frame * width + i] = at(from * width + i);
+        values.push_back(at(from * width + i));
       }
     }
     return column;
-  }
-
-  void TakeTimesteps(const std::vector<granular::FrameHeader>& headers)
-  {
-    this->Timesteps.clear();
-    for (const granular::FrameHeader& header : headers)
-    {
-      this->Timesteps.push_back(header.timestep);
-    }
   }
 
   /**
@@ -207,9 +193,9 @@ private:
     }
     const granular::Executor executor(this->Threads);
     granular::SquareDisplacements squares(this->Group, executor, this->Origin);
-    std::vector<granular::FrameHeader> headers;
-    std::vector<Series> series;
+    this->Headers.clear();
     this->Lacking = request.arrays;
+    const std::size_t before = columns.size();
     std::vector<granular::PathFrame> frames(1); // one, as share_kinds wants it
     granular::PathFrame& frame = frames.front();
     for (std::size_t i = 0; i < this->Numbers.size(); ++i)
@@ -218,16 +204,16 @@ private:
         static_cast<double>(i + 1) / static_cast<double>(this->Numbers.size()));
       frame = this->Frames.LoadPart(
         this->Numbers[i], request, this->Notices, this->Part, std::move(frame));
-      std::size_t at = 0;
+      std::size_t at = before;
       const auto add = [&](const std::string& name, const std::vector<double>& values)
       {
         if (i == 0)
         {
-          series.push_back({ name, {} });
+          columns.push_back({ name, {} });
         }
-        series[at++].Frames.push_back(values);
+        columns[at++].Frames.push_back(values);
       };
-      headers.push_back(frame.header);
+      this->Headers.push_back(frame.header);
       const auto nameRows = [&](std::int64_t id) { this->Frames.NameRows(id, this->Numbers[i]); };
       if (!msd) // otherwise they are looked up anyway
       {
@@ -250,12 +236,10 @@ private:
     {
       granular::expect_none(this->Lacking);
     }
-    std::ranges::transform(series, std::back_inserter(columns), &Task::Flatten);
-    this->TakeTimesteps(headers);
-    if (const std::size_t empty = squares.empty_frames(); empty > 0 && empty < headers.size())
+    if (const std::size_t empty = squares.empty_frames(); empty > 0 && empty < this->Headers.size())
     {
       this->Notices.push_back({ {},
-        "frames before timestep " + std::to_string(headers[empty].timestep) +
+        "frames before timestep " + std::to_string(this->Headers[empty].timestep) +
           " have no particles: msd begins there" });
     }
     const std::int64_t longSteps = squares.count_long_steps();
@@ -263,34 +247,6 @@ private:
     {
       this->Notices.push_back(granular::note_long_steps(longSteps));
     }
-  }
-
-  /**
-   * The numbers of frames that become a column.
-   */
-  struct Series
-  {
-    std::string Name;
-    std::vector<std::vector<double>> Frames;
-  };
-
-  /**
-   * A frame without particles does not know how many numbers others have.
-   */
-  static Column Flatten(const Series& series)
-  {
-    std::size_t size = 1;
-    for (const std::vector<double>& values : series.Frames)
-    {
-      size = std::max(size, values.size());
-    }
-    Column column{ series.Name, static_cast<int>(size), {} };
-    for (std::vector<double> values : series.Frames)
-    {
-      values.resize(size, Nothing);
-      column.Values.insert(column.Values.end(), values.begin(), values.end());
-    }
-    return column;
   }
 
   template <typename Add>
@@ -302,33 +258,30 @@ private:
     this->Group.sum({ &count, 1 });
     add("particles", { static_cast<double>(count) });
     this->NoteLacking(lacking, count);
-    const auto quantiles = QuantilesIn(this->Self->Quantiles);
+    std::vector<std::string> suffixes = { "_mean", "_min", "_max" };
     std::vector<double> parts;
-    for (const auto& [word, value] : quantiles)
+    for (const auto& [word, value] : QuantilesIn(this->Self->Quantiles))
     {
+      suffixes.push_back("_" + word);
       parts.push_back(value);
     }
     for (const granular::PathArray& array : frame.arrays)
     {
-      std::vector<std::vector<double>> values(3 + quantiles.size());
+      std::vector<std::vector<double>> values(suffixes.size());
       for (int component = 0; component < array.size; ++component)
       {
         const granular::Statistics found =
           granular::find_statistics(NumbersOf(array, component), parts, this->Group);
-        values[0].push_back(found.mean);
-        values[1].push_back(found.least);
-        values[2].push_back(found.greatest);
-        for (std::size_t i = 0; i < quantiles.size(); ++i)
+        std::vector<double> numbers = { found.mean, found.least, found.greatest };
+        numbers.insert(numbers.end(), found.quantiles.begin(), found.quantiles.end());
+        for (std::size_t i = 0; i < values.size(); ++i)
         {
-          values[3 + i].push_back(found.quantiles[i]);
+          values[i].push_back(numbers[i]);
         }
       }
-      add(array.name + "_mean", values[0]);
-      add(array.name + "_min", values[1]);
-      add(array.name + "_max", values[2]);
-      for (std::size_t i = 0; i < quantiles.size(); ++i)
+      for (std::size_t i = 0; i < values.size(); ++i)
       {
-        add(array.name + "_" + quantiles[i].first, values[3 + i]);
+        add(array.name + suffixes[i], values[i]);
       }
     }
   }
@@ -353,35 +306,32 @@ private:
     {
       return;
     }
-    vtkNew<vtkDoubleArray> times;
-    vtkNew<vtkTypeInt64Array> timesteps;
-    times->SetName("time");
-    timesteps->SetName("timestep");
-    for (const double time : this->GetTimes())
-    {
-      times->InsertNextValue(time);
-    }
-    for (const std::int64_t timestep : this->Timesteps)
-    {
-      timesteps->InsertNextValue(timestep);
-    }
     auto* output = this->GetOutput<vtkTable>();
-    output->AddColumn(times);
-    output->AddColumn(timesteps);
+    output->AddColumn(ArrayOf<vtkDoubleArray>("time", this->GetTimes()));
+    output->AddColumn(
+      ArrayOf<vtkTypeInt64Array>("timestep", this->Headers, &granular::FrameHeader::timestep));
     for (const Column& column : columns)
     {
+      std::size_t size = 1; // a frame without particles may know of none
+      for (const std::vector<double>& numbers : column.Frames)
+      {
+        size = std::max(size, numbers.size());
+      }
       vtkNew<vtkDoubleArray> array;
       array->SetName(column.Name.c_str());
-      array->SetNumberOfComponents(column.Size);
-      array->SetNumberOfTuples(static_cast<vtkIdType>(column.Values.size()) / column.Size);
-      std::ranges::copy(column.Values, array->GetPointer(0));
+      array->SetNumberOfComponents(static_cast<int>(size));
+      for (std::vector<double> numbers : column.Frames)
+      {
+        numbers.resize(size, Nothing);
+        array->InsertNextTuple(numbers.data());
+      }
       output->AddColumn(array);
     }
   }
 
   granular::Progress& Whole = this->Progress;    ///< a PartialProgress would be copied
   granular::PartialProgress Part{ this->Whole }; ///< of a frame
-  std::vector<std::int64_t> Timesteps;
+  std::vector<granular::FrameHeader> Headers;    ///< of the frames
   bool HadParticles = false;
   std::vector<std::string> Lacking; ///< arrays that no frame with particles has, so far
 };
@@ -396,17 +346,6 @@ vtkGranularHistory::vtkGranularHistory()
 vtkTable* vtkGranularHistory::GetOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-// The table is the same at any time.
-int vtkGranularHistory::RequestInformation(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  info->Remove(Pipeline::TIME_STEPS());
-  info->Remove(Pipeline::TIME_RANGE());
-  return this->Superclass::RequestInformation(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------

@@ -75,8 +75,6 @@ public:
 protected:
   vtkGranularHistory();
   ~vtkGranularHistory() override = default;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularLocalJoin.h"
 
+#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/particles.h"
 #include "private/dump/shared_names.h"
@@ -16,7 +17,6 @@
 #include "granular/particles/shared_header.h"
 
 #include "vtkCellData.h"
-#include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -25,7 +25,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -46,13 +45,6 @@ vtkStandardNewMacro(vtkGranularLocalJoin);
 namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-vtkSmartPointer<vtkDoubleArray> MakeEmpty(const char* name)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name);
-  return array;
-}
 
 std::span<double> DoublesIn(const granular::Block& block)
 {
@@ -76,38 +68,35 @@ private:
   }
 
   /**
-   * Counts over all processes.
-   */
-  struct Counts
-  {
-    std::int64_t Rows = 0;
-    std::int64_t Misfits = 0;     ///< lines that are not as long as their array dist says
-    std::int64_t WithoutRest = 0; ///< lines whose equilibrium length is 0
-  };
-
-  /**
    * With the particles and rows that these processes have together.
    */
   void Join()
   {
     granular::JoinRequest request;
     this->ReadRows();
-    this->ShareNames(request);
+    this->ShareFacts(request);
     this->ShareBox();
     const std::vector<std::int64_t> id1 = this->Rows->ReadIds("id1", this->Progress);
     const std::vector<std::int64_t> id2 = this->Rows->ReadIds("id2", this->Progress);
     request.threads = this->Threads;
     this->Progress.set_part(0, 0.6);
     this->Joined =
-      granular::join_lines(this->Input->View(), id1, id2, request, this->Group, this->Progress);
+      granular::join_lines(this->Input->View, id1, id2, request, this->Group, this->Progress);
     this->Progress.set_part(0.6, 0.95);
     this->MakeLines();
     this->FindElongations();
     this->CountMisfits();
-    this->Remarks = { this->FindExample(id1, id2), this->CompareTimesteps() };
-    std::array<std::int64_t, 3> sums = { this->All.Rows, this->All.Misfits, this->All.WithoutRest };
-    this->Group.sum(sums);
-    this->All = { sums[0], sums[1], sums[2] };
+    this->Remarks[0] = this->FindExample(id1, id2);
+    // lines of a single time, or none, are those of all times
+    if (this->Self->GetInputInformation(1, 0)->Length(Pipeline::TIME_STEPS()) > 1)
+    {
+      this->Remarks[1] =
+        CompareTimesteps(this->GetInput(0)->GetFieldData(), this->Rows->GetFieldData());
+    }
+    for (std::int64_t* count : { &this->AllRows, &this->Misfits, &this->WithoutRest })
+    {
+      this->Group.sum({ count, 1 });
+    }
     for (std::string& remark : this->Remarks)
     {
       const std::vector<std::string> said = this->Group.all_gather(remark);
@@ -125,7 +114,7 @@ private:
       this->FirstRow = range.first;
       this->Rows->Keep(range);
     }
-    this->All.Rows = this->Rows->Count();
+    this->AllRows = this->Rows->Count();
     this->RestKnown = this->Rows->Has(this->Self->EquilibriumLengthArray.c_str());
     const double rest = this->Self->EquilibriumLength;
     if (!(rest >= 0 && rest <= std::numeric_limits<double>::max()))
@@ -139,16 +128,15 @@ private:
    * Shares the facts that all must know alike, also those who have no particles or no rows, and then perhaps no arrays: the names that
    * "*" stands for, whether there are equilibrium lengths, and where the rows of each begin.
    */
-  void ShareNames(granular::JoinRequest& request)
+  void ShareFacts(granular::JoinRequest& request)
   {
-    const granular::FrameView& view = this->Input->View();
-    request.means = vtkGranularPrivate::ShareNames(this->Self->Averages, view, this->Group);
-    request.differences =
-      vtkGranularPrivate::ShareNames(this->Self->Differences, view, this->Group);
+    const granular::FrameView& view = this->Input->View;
+    request.means = ShareNames(this->Self->Averages, view, this->Group);
+    request.differences = ShareNames(this->Self->Differences, view, this->Group);
     std::int64_t with = this->RestKnown ? 1 : 0;
     this->Group.sum({ &with, 1 });
     this->RestKnown = with > 0;
-    const std::vector<std::int64_t> counts = granular::gather(this->Group, this->All.Rows);
+    const std::vector<std::int64_t> counts = granular::gather(this->Group, this->AllRows);
     this->FirstRow +=
       std::accumulate(counts.begin(), counts.begin() + this->Group.rank(), std::int64_t{ 0 });
   }
@@ -158,7 +146,7 @@ private:
    */
   void ShareBox()
   {
-    granular::FrameView& particles = this->Input->View();
+    granular::FrameView& particles = this->Input->View;
     if (particles.has_box)
     {
       return;
@@ -179,14 +167,12 @@ private:
    */
   void MakeLines()
   {
-    const granular::FrameView& view = this->Input->View();
+    const granular::FrameView& view = this->Input->View;
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
     const bool unwrapped = view.coordinates == granular::Coordinates::Unwrapped;
     const granular::Box box = view.has_box ? view.header.box : granular::Box{};
-    constexpr granular::PeriodicLines ways[] = { granular::PeriodicLines::MinimumImage,
-      granular::PeriodicLines::Split, granular::PeriodicLines::AsWritten };
     granular::LineRequest request;
-    request.periodic = ways[this->Self->PeriodicLines];
+    request.periodic = static_cast<granular::PeriodicLines>(this->Self->PeriodicLines);
     if (unwrapped && this->Self->PeriodicLines == SPLIT)
     {
       request.periodic = granular::PeriodicLines::MinimumImage;
@@ -229,11 +215,11 @@ private:
     for (std::size_t i = 0; i < rest.size(); ++i)
     {
       const double length = std::abs(rest[i]);
-      this->All.WithoutRest += length == 0 ? 1 : 0;
+      this->WithoutRest += length == 0 ? 1 : 0;
       const double elongation =
         length == 0 ? std::numeric_limits<double>::quiet_NaN() : lengths[i] - length;
-      this->Elongations->InsertNextValue(elongation);
-      this->Strains->InsertNextValue(elongation / length);
+      this->Elongations.push_back(elongation);
+      this->Strains.push_back(elongation / length);
     }
   }
 
@@ -243,7 +229,7 @@ private:
     {
       return;
     }
-    this->All.Misfits = granular::count_misfits(DoublesIn(this->Lines.lengths),
+    this->Misfits = granular::count_misfits(DoublesIn(this->Lines.lengths),
       this->ReadNumbers("dist"), DoublesIn(this->Joined.first), DoublesIn(this->Joined.second));
   }
 
@@ -264,15 +250,6 @@ private:
       ++row;
     }
     return std::to_string(id1[row]) + " and " + std::to_string(id2[row]);
-  }
-
-  std::string CompareTimesteps() const
-  {
-    // lines of a single time, or none, are those of all times
-    return this->Self->GetInputInformation(1, 0)->Length(Pipeline::TIME_STEPS()) > 1
-      ? vtkGranularPrivate::CompareTimesteps(
-          this->GetInput(0)->GetFieldData(), this->Rows->GetFieldData())
-      : std::string();
   }
 
   /**
@@ -303,8 +280,9 @@ private:
     }
     if (this->RestKnown)
     {
-      data->AddArray(TakeRows(this->Elongations, this->Lines));
-      data->AddArray(TakeRows(this->Strains, this->Lines));
+      data->AddArray(
+        TakeRows(ArrayOf<vtkDoubleArray>("elongation", this->Elongations), this->Lines));
+      data->AddArray(TakeRows(ArrayOf<vtkDoubleArray>("strain", this->Strains), this->Lines));
     }
     vtkPointData* points = vtkPointSet::SafeDownCast(this->GetInput(0))->GetPointData();
     for (granular::EndArray& array : this->Joined.arrays)
@@ -345,25 +323,25 @@ private:
 
   void TellOfLines()
   {
-    this->Tell(this->All.Rows == 0 && this->Rows->LackPlaces(), "no places",
+    this->Tell(this->AllRows == 0 && this->Rows->LackPlaces(), "no places",
       "the input Lines has no lines, as its file does not say where these are: take the rows, the "
       "second output of the reader");
-    const std::string ofRows = " of " + std::to_string(this->All.Rows) + " lines ";
+    const std::string ofRows = " of " + std::to_string(this->AllRows) + " lines ";
     this->Tell(this->Joined.missing > 0, "missing",
       std::to_string(this->Joined.missing) + ofRows +
         "are left out: no particle has the id of an end, as in " + this->Remarks[0]);
     this->Tell(this->Joined.repeated > 0, "repeated",
       std::to_string(this->Joined.repeated) +
         " particles have the id of another one: lines go to the first");
-    this->Tell(this->All.WithoutRest > 0, "no rest",
-      std::to_string(this->All.WithoutRest) + ofRows +
+    this->Tell(this->WithoutRest > 0, "no rest",
+      std::to_string(this->WithoutRest) + ofRows +
         "have an equilibrium length of 0: their elongation and strain are nan");
-    this->Tell(this->All.Misfits > 0, "misfits",
-      std::to_string(this->All.Misfits) + ofRows +
+    this->Tell(this->Misfits > 0, "misfits",
+      std::to_string(this->Misfits) + ofRows +
         "are not as long as their array dist says: box or timestep are not those of the particles");
     this->Tell(!this->Remarks[1].empty(), "timesteps", this->Remarks[1]);
-    const bool whole = this->Input->View().has_box || this->Self->PeriodicLines == AS_WRITTEN;
-    this->Tell(!whole && this->All.Rows > this->Joined.missing, "no box",
+    const bool whole = this->Input->View.has_box || this->Self->PeriodicLines == AS_WRITTEN;
+    this->Tell(!whole && this->AllRows > this->Joined.missing, "no box",
       "neither the particles nor the lines have a box in their field data (BoxOrigin, "
       "BoxVectors): lines are as written");
   }
@@ -376,9 +354,11 @@ private:
   granular::Lines Lines; ///< between the joined
   bool BoxIsOfLines = false;
   bool RestKnown = false;
-  vtkSmartPointer<vtkDoubleArray> Elongations = MakeEmpty("elongation"); ///< of the joined
-  vtkSmartPointer<vtkDoubleArray> Strains = MakeEmpty("strain");
-  Counts All;
+  std::vector<double> Elongations; ///< of the joined
+  std::vector<double> Strains;
+  std::int64_t AllRows = 0;           ///< in the end of all processes, like those that follow
+  std::int64_t Misfits = 0;           ///< lines that are not as long as their array dist says
+  std::int64_t WithoutRest = 0;       ///< lines whose equilibrium length is 0
   std::array<std::string, 2> Remarks; ///< ids that were not found, timesteps that differ; or empty
 };
 

@@ -106,6 +106,13 @@ public:
 protected:
   vtkGranularPathAlgorithm() = default;
   ~vtkGranularPathAlgorithm() override = default;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  /**
+   * Returns true if the output goes through all times, whatever the current one is.
+   */
+  virtual bool IsTheSameAtAllTimes() const { return true; }
 
   std::string Ids;
   vtkTypeInt64 EveryNth = 1;

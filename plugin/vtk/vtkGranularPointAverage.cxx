@@ -37,7 +37,7 @@ private:
   {
     this->Points = ExpectData<vtkDataSet>(this->GetInput(POINTS_PORT), "a vtkDataSet as Points");
     this->Grains.emplace(this->Inputs[0], this->Ranks);
-    const granular::FrameView& view = this->Grains->View();
+    const granular::FrameView& view = this->Grains->View;
     granular::PointAverageRequest request;
     this->Choose(request);
     const granular::WeightOptions weights =
@@ -65,7 +65,7 @@ private:
    */
   std::vector<double> ReadPoints() const
   {
-    const granular::FrameView& view = this->Grains->View();
+    const granular::FrameView& view = this->Grains->View;
     const vtkIdType count = this->Points->GetNumberOfPoints();
     if (view.coordinates == granular::Coordinates::Scaled && count > 0)
     {
@@ -90,7 +90,7 @@ private:
     auto* output = this->GetOutput<vtkDataSet>();
     output->ShallowCopy(this->Points);
     vtkNew<vtkPointData> fields;
-    FillArrays(fields, this->TakeFrame(), this->Points->GetNumberOfPoints());
+    AddArrays(fields, this->TakeFrame(), this->Points->GetNumberOfPoints());
     for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* const array = fields->GetAbstractArray(i);

@@ -313,20 +313,6 @@ vtkPolyData* vtkGranularTrajectories::GetOutput()
 }
 
 //------------------------------------------------------------------------------
-// Paths through all frames are the same at any time.
-int vtkGranularTrajectories::RequestInformation(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  if (this->Tail == 0)
-  {
-    vtkInformation* info = outputVector->GetInformationObject(0);
-    info->Remove(Pipeline::TIME_STEPS());
-    info->Remove(Pipeline::TIME_RANGE());
-  }
-  return this->Superclass::RequestInformation(request, inputVector, outputVector);
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularTrajectories::Execute(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

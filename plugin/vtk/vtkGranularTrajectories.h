@@ -72,8 +72,7 @@ public:
 protected:
   vtkGranularTrajectories();
   ~vtkGranularTrajectories() override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  bool IsTheSameAtAllTimes() const override { return this->Tail == 0; }
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

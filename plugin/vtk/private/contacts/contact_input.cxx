@@ -83,7 +83,7 @@ bool AreEndsInOrder(vtkPointSet* input)
 }
 
 ContactInput::ContactInput(
-  vtkDataObject* input, Touched touched, const ContactArrays& wanted, granular::Progress& progress)
+  vtkDataObject* input, bool walls, const ContactArrays& wanted, granular::Progress& progress)
   : Rows(input)
 {
   this->View.count = static_cast<std::size_t>(this->Rows.Count());
@@ -92,7 +92,7 @@ ContactInput::ContactInput(
   {
     return;
   }
-  if (touched == Touched::Particles)
+  if (!walls)
   {
     this->Ids[0] = this->Rows.ReadIds("id1", progress);
     this->View.id1 = this->Ids[0];
@@ -117,7 +117,8 @@ ContactInput::ContactInput(
   using View = granular::ContactRows;
   read(wanted.Tangential, "force_tangential", 3, this->Tangential, &View::tangential);
   read(wanted.Torque, "torque", 3, this->Torque, &View::torque);
-  read(wanted.Point, "contact_point", 3, this->Point, &View::contact_point);
+  const bool place = wanted.Point || (walls && this->Ends.empty());
+  read(place, "contact_point", 3, this->Point, &View::contact_point);
   read(wanted.Overlap, "delta", 1, this->Overlap, &View::overlap);
 }
 
@@ -171,6 +172,19 @@ void ContactInput::ReadForces(const ContactArrays& wanted)
                             "mobilised_friction, got 'force_normal' alone");
     }
     this->View.force = this->Force;
+  }
+}
+
+ContactInputs::ContactInputs(const std::array<vtkDataObject*, 2>& inputs,
+  const ContactArrays& wanted, granular::Progress& progress)
+{
+  for (std::size_t port = 0; port < inputs.size(); ++port)
+  {
+    if (inputs[port])
+    {
+      this->Rows.push_back(
+        this->Each[port].emplace(inputs[port], port == 1, wanted, progress).GetRows());
+    }
   }
 }
 }

@@ -9,22 +9,13 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 class vtkDataObject;
 
 namespace vtkGranularPrivate
 {
-/**
- * Whom the rows of an input touch.
- */
-enum class Touched
-{
-  Particles, ///< rows name two particles, id1 and id2
-  Walls      ///< rows name one particle, id2
-};
-
 /**
  * Arrays that are read of contacts, besides ids and places.
  */
@@ -45,12 +36,13 @@ class ContactInput
 {
 public:
   /**
+   * walls: rows name one particle, id2, which touches a wall, whose place is read in any case; otherwise two, id1 and id2.
    * Arrays are read if they are there: `force`, or else the sum of `force_normal` and `force_tangential`; `torque`,
    * `contact_point`, `delta`. Throws Error if ids are missing or arrays have other numbers; UnsupportedError for other
    * data or cells; granular::Cancelled.
    */
-  ContactInput(vtkDataObject* input, Touched touched, const ContactArrays& wanted,
-    granular::Progress& progress);
+  ContactInput(
+    vtkDataObject* input, bool walls, const ContactArrays& wanted, granular::Progress& progress);
   ContactInput(const ContactInput&) = delete;
   void operator=(const ContactInput&) = delete;
 
@@ -70,6 +62,21 @@ private:
   std::vector<double> Point;
   std::vector<double> Overlap;
   granular::ContactRows View;
+};
+
+/**
+ * The contacts of two inputs, between particles and with walls, either of which may be null.
+ */
+struct ContactInputs
+{
+  /**
+   * Throws what ContactInput throws.
+   */
+  ContactInputs(const std::array<vtkDataObject*, 2>& inputs, const ContactArrays& wanted,
+    granular::Progress& progress);
+
+  std::array<std::optional<ContactInput>, 2> Each;
+  std::vector<granular::ContactRows> Rows; ///< of those that are there
 };
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/decomposition/voxels.h"
 
+#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
 
@@ -14,7 +15,6 @@
 #include "vtkDataArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
-#include "vtkSmartPointer.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
@@ -33,56 +33,34 @@ namespace
 {
 using granular::Subdomain;
 
-template <typename Array, typename Value>
-vtkSmartPointer<Array> MakeCellArray(
-  const char* name, const std::vector<Subdomain>& subdomains, Value Subdomain::*member)
+/**
+ * The first of some cell arrays that has one number a cell; null if none has.
+ */
+vtkDataArray* FindNumbers(vtkUnstructuredGrid* input, std::initializer_list<const char*> names)
 {
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(subdomains.size()));
-  for (std::size_t i = 0; i < subdomains.size(); ++i)
+  for (const char* name : names)
   {
-    array->SetValue(static_cast<vtkIdType>(i), subdomains[i].*member);
+    vtkDataArray* array = input->GetCellData()->GetArray(name);
+    if (array && array->GetNumberOfComponents() == 1)
+    {
+      return array;
+    }
   }
-  return array;
+  return nullptr;
 }
 
-/**
- * A cell array of whole numbers, one a cell.
- */
-class WholeNumbers
+vtkTypeInt64 WholeNumber(vtkDataArray* array, vtkIdType cell, vtkTypeInt64 most)
 {
-public:
-  WholeNumbers(vtkUnstructuredGrid* input, std::initializer_list<const char*> names)
+  const double value = array->GetComponent(cell, 0);
+  const bool whole = std::trunc(value) == value && value >= 0 && value < 0x1p63;
+  if (!whole || array->GetVariantValue(cell).ToTypeInt64() > most)
   {
-    for (const char* name : names)
-    {
-      vtkDataArray* array = input->GetCellData()->GetArray(name);
-      if (array && array->GetNumberOfComponents() == 1 && !this->Array)
-      {
-        this->Array = array;
-      }
-    }
+    throw granular::FormatError("expected whole numbers from 0 to " + std::to_string(most) +
+        ", got " + std::to_string(value) + " in cell " + std::to_string(cell),
+      { .column = array->GetName() });
   }
-
-  explicit operator bool() const { return this->Array != nullptr; }
-
-  vtkTypeInt64 Get(vtkIdType cell, vtkTypeInt64 most) const
-  {
-    const double value = this->Array->GetComponent(cell, 0);
-    const bool whole = std::trunc(value) == value && value >= 0 && value < 0x1p63;
-    if (!whole || this->Array->GetVariantValue(cell).ToTypeInt64() > most)
-    {
-      throw granular::FormatError("expected whole numbers from 0 to " + std::to_string(most) +
-          ", got " + std::to_string(value) + " in cell " + std::to_string(cell),
-        { .column = this->Array->GetName() });
-    }
-    return this->Array->GetVariantValue(cell).ToTypeInt64();
-  }
-
-private:
-  vtkDataArray* Array = nullptr;
-};
+  return array->GetVariantValue(cell).ToTypeInt64();
+}
 
 bool IsDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType cell)
 {
@@ -106,22 +84,22 @@ void FillVoxels(vtkUnstructuredGrid* output, const granular::Decomposition& deco
   vtkCellData* data = output->GetCellData();
   if (decomposition.has_particles)
   {
-    data->SetScalars(MakeCellArray<vtkTypeInt64Array>("nlocal", subdomains, &Subdomain::particles));
+    data->SetScalars(ArrayOf<vtkTypeInt64Array>("nlocal", subdomains, &Subdomain::particles));
   }
   if (decomposition.has_ranks)
   {
-    data->AddArray(MakeCellArray<vtkTypeInt32Array>("proc", subdomains, &Subdomain::rank));
+    data->AddArray(ArrayOf<vtkTypeInt32Array>("proc", subdomains, &Subdomain::rank));
   }
 }
 
 granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices& notices)
 {
-  const WholeNumbers particles(input, { "nlocal" });
-  const WholeNumbers ranks(input, { "proc", "procID" });
+  vtkDataArray* const particles = FindNumbers(input, { "nlocal" });
+  vtkDataArray* const ranks = FindNumbers(input, { "proc", "procID" });
   const std::vector<double> points = ReadAbsolutePoints(input);
   granular::Decomposition decomposition;
-  decomposition.has_particles = static_cast<bool>(particles);
-  decomposition.has_ranks = static_cast<bool>(ranks);
+  decomposition.has_particles = particles != nullptr;
+  decomposition.has_ranks = ranks != nullptr;
   vtkUnsignedCharArray* ghosts = input->GetCellGhostArray();
   vtkIdType reflected = 0;
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
@@ -159,9 +137,9 @@ granular::Decomposition ReadVoxels(vtkUnstructuredGrid* input, granular::Notices
     }
     reflected += order == granular::CornerOrder::Reflected ? 1 : 0;
     subdomain.particles =
-      particles ? particles.Get(cell, std::numeric_limits<std::int64_t>::max()) : 0;
+      particles ? WholeNumber(particles, cell, std::numeric_limits<std::int64_t>::max()) : 0;
     subdomain.rank =
-      static_cast<int>(ranks ? ranks.Get(cell, std::numeric_limits<int>::max())
+      static_cast<int>(ranks ? WholeNumber(ranks, cell, std::numeric_limits<int>::max())
                              : static_cast<vtkTypeInt64>(decomposition.subdomains.size()));
     decomposition.subdomains.push_back(subdomain);
   }

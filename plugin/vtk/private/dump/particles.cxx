@@ -10,23 +10,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 namespace vtkGranularPrivate
 {
 Particles::Particles(vtkDataObject* input, granular::Communicator& ranks)
+  : DumpInput(ExpectData<vtkPointSet>(input, "a vtkPointSet of particles"))
 {
-  auto* points = ExpectData<vtkPointSet>(input, "a vtkPointSet of particles");
-  granular::Notices ofArrays; // that have no use here
-  this->Input.emplace(points, ofArrays);
-  granular::share_header(this->Input->View, ranks);
+  granular::share_header(this->View, ranks);
 }
 
 std::pair<granular::Vector3, granular::Vector3> Particles::FindBounds(
   const double given[6], const char* tilted) const
 {
-  const granular::FrameView& view = this->View();
+  const granular::FrameView& view = this->View;
   if (std::any_of(given, given + 6, [](double bound) { return std::isnan(bound); }))
   {
     throw granular::Error("expected Bounds of numbers, got nan");

@@ -7,7 +7,6 @@
 #include "granular/geometry/box.h"
 #include "granular/parallel/communicator.h"
 
-#include <optional>
 #include <utility>
 
 class vtkDataObject;
@@ -17,20 +16,15 @@ namespace vtkGranularPrivate
 /**
  * The particles that filters on several ranks work on.
  */
-class Particles
+class Particles : public DumpInput
 {
 public:
   /**
-   * Reads the particles of this rank from a data object. Throws on all ranks if it is not a vtkPointSet, and what
-   * DumpInput and share_header throw. Collective.
+   * Reads the particles of this rank from a data object; the header of the View is what all ranks share: see
+   * granular::share_header. Throws on all ranks if it is not a vtkPointSet, and what DumpInput and share_header throw.
+   * Collective.
    */
   Particles(vtkDataObject* input, granular::Communicator& ranks);
-
-  /**
-   * Returns the header that all ranks share: see granular::share_header.
-   */
-  granular::FrameView& View() { return this->Input->View; }
-  const granular::FrameView& View() const { return this->Input->View; }
 
   /**
    * Returns the box: the given bounds if each lower one is below its upper one, otherwise the box in the field data.
@@ -39,9 +33,6 @@ public:
    */
   std::pair<granular::Vector3, granular::Vector3> FindBounds(
     const double given[6], const char* tilted) const;
-
-private:
-  std::optional<DumpInput> Input;
 };
 }
 

@@ -10,36 +10,28 @@
 
 namespace vtkGranularPrivate
 {
-namespace
-{
-/**
- * The names that a rank knows, which may have blanks.
- */
-struct KnownNames
-{
-  bool HasParticles = false;
-  std::vector<std::string> Names;
-};
-
 template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<KnownNames>& known)
+static void pass(Archive& archive, typename Archive::template Passed<KnownArrays>& known)
 {
   archive.number(known.HasParticles);
   granular::pass(archive, known.Names);
+  granular::pass(archive, known.Sizes);
 }
 
-std::vector<std::string> NumericArrays(const granular::FrameView& particles)
+KnownArrays ShareArrays(const granular::FrameView& particles, granular::Communicator& ranks)
 {
-  std::vector<std::string> names;
+  KnownArrays own{ particles.rows > 0, {}, {} };
   for (const granular::ArrayView& array : particles.arrays)
   {
     if (array.type != granular::ValueType::Text && array.name != "id")
     {
-      names.push_back(array.name);
+      own.Names.push_back(array.name);
+      own.Sizes.push_back(array.size());
     }
   }
-  return names;
-}
+  const std::vector<KnownArrays> all = granular::gather(ranks, own);
+  const auto best = std::ranges::find_if(all, &KnownArrays::HasParticles);
+  return best == all.end() ? all.back() : *best;
 }
 
 std::vector<std::string> NamesIn(std::string list, const std::vector<std::string>& all)
@@ -63,9 +55,6 @@ std::vector<std::string> NamesIn(std::string list, const std::vector<std::string
 std::vector<std::string> ShareNames(
   const std::string& list, const granular::FrameView& particles, granular::Communicator& ranks)
 {
-  const std::vector<KnownNames> all = granular::gather(
-    ranks, KnownNames{ particles.rows > 0, NamesIn(list, NumericArrays(particles)) });
-  const auto best = std::ranges::find_if(all, &KnownNames::HasParticles);
-  return best == all.end() ? all.back().Names : best->Names;
+  return NamesIn(list, ShareArrays(particles, ranks).Names);
 }
 }

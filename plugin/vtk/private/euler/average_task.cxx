@@ -10,9 +10,8 @@
 #include "vtkDataObject.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <functional>
 #include <utility>
-#include <vector>
 
 using namespace vtkGranularPrivate;
 
@@ -83,7 +82,7 @@ granular::WeightOptions vtkGranularAverageAlgorithm::AverageTask::MakeWeights(
   if (options.width == 0)
   {
     const double largest =
-      weights >= GAUSSIAN ? granular::largest_radius(this->Grains->View(), arrays, this->Group) : 0;
+      weights >= GAUSSIAN ? granular::largest_radius(this->Grains->View, arrays, this->Group) : 0;
     options.width = largest > 0 ? 2 * largest : 1; // without particles any does
   }
   return options;
@@ -100,7 +99,7 @@ void vtkGranularAverageAlgorithm::AverageTask::CheckInput(vtkDataObject* input)
         "): averages count the particles that are there, volume fraction and stress are too "
         "small" });
   }
-  const granular::FrameView& view = this->Grains->View();
+  const granular::FrameView& view = this->Grains->View;
   const granular::Box& box = view.header.box;
   if (view.has_box && box.general && box.boundary.find('p') != std::string::npos)
   {
@@ -115,13 +114,36 @@ const granular::FoundEnds& vtkGranularAverageAlgorithm::AverageTask::FindContact
   const FrameInputs& inputs, bool forces, const granular::Executor& executor,
   granular::Progress& progress)
 {
-  const FoundContacts& found = this->Contacts.emplace(std::array{ inputs[1], inputs[2] },
-    *inputs[0], this->Grains->View(), forces, this->Group, executor, this->Notices, progress);
-  for (std::size_t i = 0; i < this->LeftOut.size(); ++i)
+  ContactArrays wanted;
+  wanted.Force = forces;
+  const ContactInputs& found =
+    this->Contacts.emplace(std::array{ inputs[1], inputs[2] }, wanted, progress);
+  for (const std::optional<ContactInput>& input : found.Each)
   {
-    this->LeftOut[i] += found.CountLeftOut()[i];
+    const std::string text = input
+      ? CompareTimesteps(inputs[0]->GetFieldData(), input->GetLines().GetFieldData())
+      : std::string();
+    if (!text.empty())
+    {
+      this->Notices.push_back({ {}, text });
+    }
   }
-  return found.GetEnds();
+  granular::ContactOptions options;
+  options.arm = granular::LeverArm::Half; // nobody asks where forces act: radii are not needed
+  granular::PartialProgress parts(progress);
+  const granular::FoundEnds& ends =
+    this->Ends.emplace(this->Grains->View, found.Rows, "", options, this->Group, executor, parts);
+  if (forces && !ends.have_forces())
+  {
+    this->Notices.push_back({ {},
+      "the contacts have neither an array 'force' nor 'force_normal': stress and pressure lack "
+      "their part" });
+  }
+  std::array<std::int64_t, 3> leftOut = { ends.missing() - ends.unplaced(), ends.unplaced(),
+    ends.broken() };
+  this->Group.sum(leftOut);
+  std::ranges::transform(this->LeftOut, leftOut, this->LeftOut.begin(), std::plus<>());
+  return ends;
 }
 
 //------------------------------------------------------------------------------

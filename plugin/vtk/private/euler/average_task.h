@@ -5,10 +5,11 @@
 #include "vtkGranularAverageAlgorithm.h"
 
 #include "private/arrays/made_arrays.h"
-#include "private/contacts/found_contacts.h"
+#include "private/contacts/contact_input.h"
 #include "private/dump/particles.h"
 #include "private/request/request_task.h"
 
+#include "granular/contacts/find_ends.h"
 #include "granular/euler/cell_weights.h"
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
@@ -107,7 +108,9 @@ protected:
   void CheckInput(vtkDataObject* input);
 
   /**
-   * Finds the contacts of a frame and counts those that are left out. See FoundContacts. Collective.
+   * Finds the contacts of a frame with the particles at their ends, Grains, and counts those that are left out. Notices tell
+   * if they are of another timestep. forces: false reads none, where no stress is wanted; otherwise a notice tells if there
+   * are none. Collective.
    */
   const granular::FoundEnds& FindContacts(const FrameInputs& inputs, bool forces,
     const granular::Executor& executor, granular::Progress& progress);
@@ -119,7 +122,8 @@ protected:
 
   const FrameInputs Inputs = { this->GetInput(0), this->GetInput(1), this->GetInput(2) };
   std::optional<vtkGranularPrivate::Particles> Grains; ///< of the last frame
-  std::optional<vtkGranularPrivate::FoundContacts> Contacts;
+  std::optional<vtkGranularPrivate::ContactInputs> Contacts;
+  std::optional<granular::FoundEnds> Ends; ///< of these
   granular::EulerCells Cells;
   granular::EulerFields Fields;
   std::int64_t Outside = 0; ///< particles, of all frames
@@ -130,7 +134,9 @@ private:
   bool IsStressOn() const;
   granular::EulerFieldSet ChooseFields() const;
 
-  std::array<std::int64_t, 3> LeftOut = {}; ///< contacts of all frames: see FoundContacts
+  /// contacts of all frames and ranks: lines and rows that nothing places with a particle that is not there, then those with a
+  /// number that is not finite
+  std::array<std::int64_t, 3> LeftOut = {};
 };
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/euler/euler_cells.h"
 
+#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/request/piece_request.h"
 
@@ -23,6 +24,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -82,21 +84,6 @@ void AddArray(vtkDataSetAttributes* data, vtkDoubleArray* array)
   if (array->GetNumberOfComponents() == 3 && std::string_view(array->GetName()) == "v_avg")
   {
     data->SetActiveVectors(array->GetName());
-  }
-}
-
-/**
- * The values of some cells of a frame.
- */
-void AddArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkTypeInt64 begin,
-  vtkIdType count)
-{
-  for (const granular::EulerValues& values : frame.arrays)
-  {
-    const auto array = MakeArray(values, count);
-    std::copy_n(values.values.begin() + begin * values.components, count * values.components,
-      array->GetPointer(0));
-    AddArray(data, array);
   }
 }
 
@@ -176,6 +163,18 @@ granular::EulerFrame MakeFrame(granular::EulerCells&& cells, granular::EulerFiel
   return frame;
 }
 
+void AddArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count,
+  vtkTypeInt64 begin)
+{
+  for (const granular::EulerValues& values : frame.arrays)
+  {
+    const auto array = MakeArray(values, count);
+    std::copy_n(values.values.begin() + begin * values.components, count * values.components,
+      array->GetPointer(0));
+    AddArray(data, array);
+  }
+}
+
 void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
   vtkTypeInt64 end, const granular::Vector3& pointOrigin)
 {
@@ -192,25 +191,15 @@ void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeI
   points->SetData(centres);
   output->SetPoints(points);
   output->SetVerts(MakeCells(count, 1));
-  AddArrays(output->GetPointData(), frame, begin, count);
-}
-
-void FillArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count)
-{
-  AddArrays(data, frame, 0, count);
+  AddArrays(output->GetPointData(), frame, count, begin);
 }
 
 void FillTable(vtkTable* output, const granular::EulerFrame& frame, vtkTypeInt64 begin,
   vtkTypeInt64 end, int axis)
 {
-  vtkNew<vtkDoubleArray> positions;
-  positions->SetName("position");
-  for (vtkTypeInt64 cell = begin; cell < end; ++cell)
-  {
-    positions->InsertNextValue(frame.centres[static_cast<std::size_t>(3 * cell + axis)]);
-  }
-  output->GetRowData()->AddArray(positions);
-  AddArrays(output->GetRowData(), frame, begin, end - begin);
+  output->GetRowData()->AddArray(ArrayOf<vtkDoubleArray>("position", std::views::iota(begin, end),
+    [&](vtkTypeInt64 cell) { return frame.centres[static_cast<std::size_t>(3 * cell + axis)]; }));
+  AddArrays(output->GetRowData(), frame, end - begin, begin);
 }
 
 void FillImage(vtkImageData* output, const granular::EulerGrid& grid, const CellExtent& extent,

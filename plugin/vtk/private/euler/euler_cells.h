@@ -55,9 +55,10 @@ void FillPoints(vtkPolyData* output, const granular::EulerFrame& frame, vtkTypeI
   vtkTypeInt64 end, const granular::Vector3& pointOrigin);
 
 /**
- * Adds the arrays of the first entries of a frame.
+ * Adds the arrays of the first entries of a frame, or of `count` from another on.
  */
-void FillArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count);
+void AddArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count,
+  vtkTypeInt64 begin = 0);
 
 /**
  * Fills the table with cells [begin, end) of a frame, a row for each: `position`, the coordinate of the centre along an axis, and

@@ -11,7 +11,6 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
@@ -23,9 +22,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace vtkGranularPrivate
@@ -122,9 +120,10 @@ Source MakeGridSource(vtkDataSet* grid, const Middles& middles)
       {
         points->InsertNextPoint(middle, y[j], z[k]);
       }
-      source.Lines.push_back({ middles.First[2] + static_cast<vtkTypeInt64>(k),
-        middles.First[1] + static_cast<vtkTypeInt64>(j), middles.First[0],
-        static_cast<vtkTypeInt64>(x.size()) });
+      source.Lines.push_back(
+        { { middles.First[2] + static_cast<std::int64_t>(k),
+            middles.First[1] + static_cast<std::int64_t>(j), middles.First[0] },
+          std::ssize(x) });
     }
   }
   source.Points = vtkSmartPointer<vtkPolyData>::New();
@@ -207,10 +206,11 @@ void AddRuns(
   for (const vtkIdType cell : kept)
   {
     const CellRun& line = lines[cell / lines.front().Count];
-    const vtkTypeInt64 along = cell % lines.front().Count;
+    const std::int64_t along = cell % lines.front().Count;
     if (cell != next || along == 0)
     {
-      runs.push_back({ line.Z, line.Y, line.X + along, 0 });
+      const auto& [z, y, x] = line.Place;
+      runs.push_back({ { z, y, x + along } });
     }
     ++runs.back().Count;
     next = cell + 1;
@@ -255,31 +255,15 @@ void Read(vtkDataObject* data, vtkFieldData* fields, bool runs, EulerInput& to)
   }
 }
 
-std::vector<CellRun> GatherRuns(const std::vector<CellRun>& own, granular::Communicator& ranks)
-{
-  std::vector<CellRun> runs;
-  for (const std::vector<CellRun>& part : granular::gather(ranks, own))
-  {
-    runs.insert(runs.end(), part.begin(), part.end());
-  }
-  return runs;
-}
-
 /**
  * Puts cells into the order of the grid, of which they are these runs.
  */
-void Sort(granular::EulerCells& cells, const std::vector<CellRun>& runs)
+void Sort(granular::EulerCells& cells, std::vector<CellRun> runs)
 {
-  struct Part
+  std::int64_t count = 0;
+  for (CellRun& run : runs)
   {
-    CellRun Run;
-    vtkTypeInt64 First = 0;
-  };
-  std::vector<Part> parts;
-  vtkTypeInt64 count = 0;
-  for (const CellRun& run : runs)
-  {
-    parts.push_back({ run, count });
+    run.First = count;
     count += run.Count;
   }
   if (count != cells.count())
@@ -287,17 +271,15 @@ void Sort(granular::EulerCells& cells, const std::vector<CellRun>& runs)
     throw granular::UnsupportedError("expected grids on all processes, got a grid for " +
       std::to_string(count) + " of " + std::to_string(cells.count()) + " cells");
   }
-  std::stable_sort(parts.begin(), parts.end(),
-    [](const Part& a, const Part& b)
-    { return std::tie(a.Run.Z, a.Run.Y, a.Run.X) < std::tie(b.Run.Z, b.Run.Y, b.Run.X); });
+  std::ranges::stable_sort(runs, {}, &CellRun::Place);
   const auto sort = [&](std::vector<double>& values, int components)
   {
     std::vector<double> sorted;
     sorted.reserve(values.size());
-    for (const Part& part : parts)
+    for (const CellRun& run : runs)
     {
-      const auto first = values.begin() + part.First * components;
-      sorted.insert(sorted.end(), first, first + part.Run.Count * components);
+      const auto first = values.begin() + run.First * components;
+      sorted.insert(sorted.end(), first, first + run.Count * components);
     }
     values = std::move(sorted);
   };
@@ -351,11 +333,15 @@ EulerInput ReadCells(vtkDataObject* input)
 
 granular::EulerCells GatherCells(EulerInput&& own, granular::Communicator& ranks)
 {
-  const std::vector<CellRun> runs = GatherRuns(own.Runs, ranks);
+  std::vector<CellRun> runs;
+  for (const std::vector<CellRun>& part : granular::gather(ranks, own.Runs))
+  {
+    runs.insert(runs.end(), part.begin(), part.end());
+  }
   granular::EulerCells cells = granular::gather_cells(own.Cells, ranks);
   if (ranks.rank() == 0 && !runs.empty())
   {
-    Sort(cells, runs);
+    Sort(cells, std::move(runs));
   }
   return cells;
 }

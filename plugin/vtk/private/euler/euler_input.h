@@ -6,8 +6,9 @@
 #include "granular/parallel/communicator.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 class vtkDataObject;
@@ -20,10 +21,9 @@ namespace vtkGranularPrivate
  */
 struct CellRun
 {
-  vtkTypeInt64 Z = 0;
-  vtkTypeInt64 Y = 0;
-  vtkTypeInt64 X = 0;
-  vtkTypeInt64 Count = 0;
+  std::array<std::int64_t, 3> Place = {}; ///< along z, y and x
+  std::int64_t Count = 0;
+  std::int64_t First = 0; ///< number of the first one among all that are gathered
 };
 
 /**

@@ -18,12 +18,12 @@
 
 namespace vtkGranularPrivate
 {
-ChosenCells FindCells(const ChosenLines& lines)
+ChosenCells AddLines(const ChosenLines& lines, vtkPolyData* output)
 {
   ChosenCells cells;
   const std::vector<vtkIdType> begins = lines.Rows->FindBegins();
   const std::vector<vtkIdType> ends = lines.Rows->FindEnds();
-  for (const vtkIdType row : lines.Wanted)
+  for (const std::int64_t row : lines.Wanted)
   {
     const auto at = static_cast<std::size_t>(row);
     for (vtkIdType cell = begins[at]; cell <= ends[at]; ++cell)
@@ -32,28 +32,30 @@ ChosenCells FindCells(const ChosenLines& lines)
       cells.Rows.push_back(row);
     }
   }
-  return cells;
-}
-
-void AddLines(vtkPointSet* from, const std::vector<vtkIdType>& cells, vtkPolyData* output)
-{
-  vtkPoints* const points = output->GetPoints();
-  vtkCellArray* const lines = output->GetLines();
-  vtkNew<vtkIdList> ends;
-  for (const vtkIdType cell : cells)
+  if (!output->GetPoints())
   {
-    const int type = from->GetCellType(cell);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    output->SetPoints(points);
+    output->SetLines(vtkNew<vtkCellArray>());
+  }
+  vtkNew<vtkIdList> corners;
+  for (const std::int64_t cell : cells.All)
+  {
+    const int type = lines.Input->GetCellType(cell);
     if (type != VTK_LINE && type != VTK_POLY_LINE)
     {
       throw granular::UnsupportedError("expected lines as cells, got a cell of the VTK type " +
         std::to_string(type) + " in row " + std::to_string(cell) + " (the first is 0)");
     }
-    from->GetCellPoints(cell, ends);
-    lines->InsertNextCell(static_cast<int>(ends->GetNumberOfIds()));
-    for (vtkIdType i = 0; i < ends->GetNumberOfIds(); ++i)
+    lines.Input->GetCellPoints(cell, corners);
+    output->GetLines()->InsertNextCell(static_cast<int>(corners->GetNumberOfIds()));
+    for (const vtkIdType corner : *corners)
     {
-      lines->InsertCellPoint(points->InsertNextPoint(from->GetPoint(ends->GetId(i))));
+      output->GetLines()->InsertCellPoint(
+        output->GetPoints()->InsertNextPoint(lines.Input->GetPoint(corner)));
     }
   }
+  return cells;
 }
 }

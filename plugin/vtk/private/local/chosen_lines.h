@@ -4,6 +4,7 @@
 
 #include "vtkType.h"
 
+#include <cstdint>
 #include <vector>
 
 class vtkPointSet;
@@ -20,7 +21,7 @@ struct ChosenLines
 {
   vtkPointSet* Input;
   const LocalRows* Rows;
-  std::vector<vtkIdType> Wanted; ///< rows
+  std::vector<std::int64_t> Wanted; ///< rows
 };
 
 /**
@@ -28,19 +29,15 @@ struct ChosenLines
  */
 struct ChosenCells
 {
-  std::vector<vtkIdType> All;
-  std::vector<vtkIdType> Rows; ///< of each
+  std::vector<std::int64_t> All;
+  std::vector<std::int64_t> Rows; ///< of each
 };
 
 /**
- * Throws Error if the parts of a split line are not consecutive.
+ * Adds lines to those of the output: each cell with points of its own, which are doubles. Throws Error if the parts of a split
+ * line are not consecutive; UnsupportedError for other cells than lines.
  */
-ChosenCells FindCells(const ChosenLines& lines);
-
-/**
- * Adds cells to the lines of the output, each with points of its own. Throws UnsupportedError for other cells than lines.
- */
-void AddLines(vtkPointSet* from, const std::vector<vtkIdType>& cells, vtkPolyData* output);
+ChosenCells AddLines(const ChosenLines& lines, vtkPolyData* output);
 }
 
 #endif

@@ -269,7 +269,7 @@ void LocalRows::Pass(
   this->PassTuples(same ? nullptr : tuples.Get(), to);
 }
 
-void LocalRows::PassCells(const std::vector<vtkIdType>& cells, vtkDataSetAttributes* to) const
+void LocalRows::PassCells(const std::vector<std::int64_t>& cells, vtkDataSetAttributes* to) const
 {
   vtkNew<vtkIdList> tuples;
   tuples->SetNumberOfIds(std::ssize(cells));

@@ -94,7 +94,7 @@ public:
   /**
    * Returns all arrays, with the values of some cells, or tuples of the table, in any order.
    */
-  void PassCells(const std::vector<vtkIdType>& cells, vtkDataSetAttributes* to) const;
+  void PassCells(const std::vector<std::int64_t>& cells, vtkDataSetAttributes* to) const;
 
   vtkFieldData* GetFieldData() const { return this->Field; }
 

@@ -8,7 +8,6 @@
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
-#include "vtkTypeInt32Array.h"
 
 #include <algorithm>
 #include <cstring>
@@ -69,7 +68,7 @@ void FillNone(vtkAbstractArray* array, vtkIdType first, vtkIdType last)
   }
 }
 
-void SetAll(vtkIdList* list, const std::vector<vtkIdType>& rows)
+void SetAll(vtkIdList* list, const std::vector<std::int64_t>& rows)
 {
   list->SetNumberOfIds(static_cast<vtkIdType>(rows.size()));
   std::ranges::copy(rows, list->GetPointer(0));
@@ -94,13 +93,15 @@ void CopyTuples(const ArrayForm& form, vtkAbstractArray* from, vtkIdList* rows, 
   }
   to->InsertTuples(places, rows, from);
 }
-}
 
-std::vector<ArrayForm> ShareForms(vtkDataSetAttributes* current, vtkIdType currentRows,
-  vtkDataSetAttributes* reference, vtkIdType referenceRows, granular::Communicator& ranks)
+/**
+ * Returns the arrays of the first rank with current rows, else of the first with rows of the reference frame.
+ */
+std::vector<ArrayForm> ShareForms(
+  vtkDataSetAttributes* current, vtkDataSetAttributes* reference, granular::Communicator& ranks)
 {
   KnownForms own;
-  own.Rows = currentRows > 0 ? 2 : referenceRows > 0 ? 1 : 0;
+  own.Rows = current->GetNumberOfTuples() > 0 ? 2 : reference->GetNumberOfTuples() > 0 ? 1 : 0;
   vtkDataSetAttributes* const data = own.Rows == 1 ? reference : current;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -114,10 +115,10 @@ std::vector<ArrayForm> ShareForms(vtkDataSetAttributes* current, vtkIdType curre
   const std::vector<KnownForms> all = granular::gather(ranks, own);
   return std::ranges::max_element(all, {}, &KnownForms::Rows)->Forms;
 }
+}
 
 ChangedRows::ChangedRows(
-  const std::vector<vtkIdType>& rows, vtkIdType allRows, const std::vector<vtkIdType>& lost)
-  : AreAll(static_cast<vtkIdType>(rows.size()) == allRows && lost.empty())
+  const std::vector<std::int64_t>& rows, const std::vector<std::int64_t>& lost)
 {
   SetAll(this->Rows, rows);
   SetAll(this->Lost, lost);
@@ -131,7 +132,8 @@ vtkIdType ChangedRows::Count() const
 vtkSmartPointer<vtkAbstractArray> ChangedRows::Combine(
   const ArrayForm& form, vtkAbstractArray* current, vtkAbstractArray* reference) const
 {
-  if (this->AreAll && Has(form, current))
+  if (Has(form, current) && current->GetNumberOfTuples() == this->Rows->GetNumberOfIds() &&
+    this->Lost->GetNumberOfIds() == 0)
   {
     return current;
   }
@@ -150,10 +152,10 @@ vtkSmartPointer<vtkAbstractArray> ChangedRows::Combine(
   return made;
 }
 
-void ChangedRows::Pass(const std::vector<ArrayForm>& forms, vtkDataSetAttributes* current,
-  vtkDataSetAttributes* reference, vtkDataSetAttributes* output) const
+void ChangedRows::Pass(vtkDataSetAttributes* current, vtkDataSetAttributes* reference,
+  granular::Communicator& ranks, vtkDataSetAttributes* output) const
 {
-  for (const ArrayForm& form : forms)
+  for (const ArrayForm& form : ShareForms(current, reference, ranks))
   {
     const char* const name = form.Name.c_str();
     output->AddArray(
@@ -168,19 +170,5 @@ void ChangedRows::Pass(const std::vector<ArrayForm>& forms, vtkDataSetAttributes
       output->SetActiveAttribute(name, type);
     }
   }
-}
-
-vtkSmartPointer<vtkAbstractArray> MakeChanges(const std::vector<granular::Change>& changes,
-  const std::vector<vtkIdType>& rows, std::size_t lost)
-{
-  auto array = vtkSmartPointer<vtkTypeInt32Array>::New();
-  array->SetName("change");
-  array->SetNumberOfValues(static_cast<vtkIdType>(rows.size() + lost));
-  vtkTypeInt32* const to = array->GetPointer(0);
-  std::ranges::transform(rows, to,
-    [&](vtkIdType row)
-    { return static_cast<vtkTypeInt32>(changes[static_cast<std::size_t>(row)]); });
-  std::fill_n(to + rows.size(), lost, static_cast<vtkTypeInt32>(granular::Change::Lost));
-  return array;
 }
 }

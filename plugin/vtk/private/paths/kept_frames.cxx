@@ -9,9 +9,8 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <list>
-#include <utility>
+#include <optional>
 
 namespace vtkGranularPrivate
 {
@@ -55,7 +54,6 @@ vtkSmartPointer<vtkDataObject> Copy(vtkDataObject* data)
 void KeptFrames::Begin(
   vtkAlgorithm* consumer, const InputFrames::Part& part, granular::Communicator& ranks)
 {
-  this->Last.reset();
   const std::vector<vtkMTimeType> changed = FindChanged(consumer);
   const bool same =
     changed == this->Changed && part.Piece == this->Part.Piece && part.Pieces == this->Part.Pieces;
@@ -68,11 +66,11 @@ void KeptFrames::Begin(
   }
   this->Changed = changed;
   this->Part = part;
-  this->Shown.Data.clear();
+  this->Shown.clear();
   for (const int port : FindInputs(consumer))
   {
     vtkDataObject* data = consumer->GetInputDataObject(port, 0);
-    this->Shown.Data.push_back(data ? Copy(data) : nullptr);
+    this->Shown.push_back(data ? Copy(data) : nullptr);
   }
   const InputFrames frames(consumer, part);
   this->Times = frames.GetTimes();
@@ -81,26 +79,23 @@ void KeptFrames::Begin(
   const auto after = time ? std::ranges::upper_bound(this->Times, *time) : this->Times.begin();
   this->ShownNumber =
     static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - this->Times.begin() - 1, 0));
-  this->Shown.Time = this->Times.empty() ? 0 : this->Times[this->ShownNumber];
 }
 
 FrameData KeptFrames::Get(vtkAlgorithm* consumer, std::size_t number, granular::Communicator& ranks)
 {
+  this->Last = number;
   if (number == this->ShownNumber)
   {
-    this->Last = this->Shown;
-    return this->Shown.Data;
+    return this->Shown;
   }
   const double time = this->Times[number];
-  if (this->Last && this->Last->Time == time)
-  {
-    return this->Last->Data;
-  }
-  const auto found = std::ranges::find(this->Kept, time, &Frame::Time);
-  std::int64_t missing = found == this->Kept.end() ? 1 : 0;
+  std::int64_t missing = this->Kept.contains(time) ? 0 : 1;
   ranks.sum({ &missing, 1 });
-  this->Last = missing == 0 ? *found : this->Read(consumer, time, ranks);
-  return this->Last->Data;
+  if (missing > 0)
+  {
+    this->Kept[time] = this->Read(consumer, time, ranks);
+  }
+  return this->Kept[time];
 }
 
 std::size_t KeptFrames::FindFirst(vtkAlgorithm* consumer, granular::Communicator& ranks)
@@ -115,20 +110,20 @@ std::size_t KeptFrames::FindFirst(vtkAlgorithm* consumer, granular::Communicator
     {
       break;
     }
+    this->Kept.erase(this->Times[this->Empty]);
   }
   return std::min(this->Empty, this->ShownNumber);
 }
 
-KeptFrames::Frame KeptFrames::Read(
-  vtkAlgorithm* consumer, double time, granular::Communicator& ranks) const
+FrameData KeptFrames::Read(vtkAlgorithm* consumer, double time, granular::Communicator& ranks) const
 {
-  Frame frame{ time, {} };
+  FrameData frame;
   std::list<InputFrames> inputs; // which make the shown time the current one again at the end
   for (const int port : FindInputs(consumer))
   {
     InputFrames& input = inputs.emplace_back(consumer, this->Part, port);
     input.Update(time, ranks);
-    frame.Data.push_back(Copy(input.GetData()));
+    frame.push_back(Copy(input.GetData()));
   }
   for (InputFrames& input : inputs)
   {
@@ -139,16 +134,15 @@ KeptFrames::Frame KeptFrames::Read(
 
 void KeptFrames::End(bool keepShown)
 {
-  this->Kept.clear();
-  if (this->Last)
+  if (!this->Times.empty())
   {
-    this->Kept.push_back(std::move(*this->Last));
-    this->Last.reset();
+    std::erase_if(
+      this->Kept, [&](const auto& frame) { return frame.first != this->Times[this->Last]; });
+    if (keepShown || this->Last == this->ShownNumber)
+    {
+      this->Kept[this->Times[this->ShownNumber]] = this->Shown;
+    }
   }
-  if (keepShown && (this->Kept.empty() || this->Kept.front().Time != this->Shown.Time))
-  {
-    this->Kept.push_back(this->Shown);
-  }
-  this->Shown.Data.clear();
+  this->Shown.clear();
 }
 }

@@ -9,7 +9,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <optional>
+#include <cstddef>
+#include <map>
 #include <vector>
 
 class vtkAlgorithm;
@@ -37,7 +38,7 @@ public:
   /**
    * Returns the shown frame.
    */
-  const FrameData& GetShown() const { return this->Shown.Data; }
+  const FrameData& GetShown() const { return this->Shown; }
 
   /**
    * Returns the times of the first input, and the number of the shown one; 0 without times.
@@ -62,22 +63,16 @@ public:
   void End(bool keepShown);
 
 private:
-  struct Frame
-  {
-    double Time = 0;
-    FrameData Data;
-  };
-
-  Frame Read(vtkAlgorithm* consumer, double time, granular::Communicator& ranks) const;
+  FrameData Read(vtkAlgorithm* consumer, double time, granular::Communicator& ranks) const;
 
   InputFrames::Part Part;
   std::vector<vtkMTimeType> Changed; ///< of the pipelines of the inputs
   std::vector<double> Times;
   std::size_t ShownNumber = 0;
+  std::size_t Last = 0;  ///< number of the frame that Get returned last
   std::size_t Empty = 0; ///< so many frames at the beginning have no points, or more
-  Frame Shown;
-  std::optional<Frame> Last; ///< returned by Get
-  std::vector<Frame> Kept;
+  FrameData Shown;
+  std::map<double, FrameData> Kept; ///< by their times
 };
 }
 

@@ -143,7 +143,7 @@ granular::PathFrame PathFrames::Request(
     [&]
     {
       const Particles particles(this->Input->GetData(), this->Group);
-      const granular::FrameView& view = particles.View();
+      const granular::FrameView& view = particles.View;
       const std::vector<std::int64_t> rows = granular::gather(this->Group, view.rows);
       const std::int64_t first =
         std::accumulate(rows.begin(), rows.begin() + this->Group.rank(), std::int64_t{ 0 });

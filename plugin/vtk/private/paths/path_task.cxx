@@ -27,7 +27,7 @@ void vtkGranularPathAlgorithm::PathTask::Choose()
 void vtkGranularPathAlgorithm::PathTask::ReadInput()
 {
   const Particles particles(this->GetInput(0), this->Ranks);
-  const granular::FrameView& view = particles.View();
+  const granular::FrameView& view = particles.View;
   if (view.coordinates != granular::Coordinates::Scaled)
   {
     this->Origin = view.point_origin;
