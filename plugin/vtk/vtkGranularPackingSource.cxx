@@ -2,11 +2,10 @@
 #include "vtkGranularPackingSource.h"
 
 #include "private/arrays/arrays.h"
+#include "private/dump/dump_input.h"
 #include "private/dump/dump_output.h"
 #include "private/local/bond_lines.h"
-#include "private/request/guard.h"
-#include "private/request/piece_request.h"
-#include "private/request/processes.h"
+#include "private/request/request_task.h"
 
 #include "granular/common/memory_error.h"
 #include "granular/packing/bonds.h"
@@ -15,11 +14,8 @@
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -35,8 +31,7 @@ enum Ports
 {
   GRAINS,
   BOX,
-  BONDS,
-  NUMBER_OF_PORTS
+  BONDS
 };
 
 // State files of earlier versions may have values that are gone.
@@ -74,143 +69,111 @@ granular::RadiusChoice::Kind KindOf(int value)
 vtkStandardNewMacro(vtkGranularPackingSource);
 
 //------------------------------------------------------------------------------
-struct vtkGranularPackingSource::Internals
+class vtkGranularPackingSource::Task : public FilterTask<vtkGranularPackingSource>
 {
-  using Self = vtkGranularPackingSource;
+public:
+  using FilterTask::FilterTask;
 
-  std::string Boundary = "ff ff ff";
-  VertexCache Vertices; ///< of the request before
+private:
+  void Execute() override
+  {
+    try
+    {
+      this->Progress.set_part(0, 0.6);
+      const granular::PackingPlan plan(this->MakeRequest(), this->Progress);
+      this->Fill(plan);
+    }
+    catch (const std::bad_alloc&)
+    {
+      throw granular::MemoryError("not enough memory for so many grains and bonds: ask for fewer, "
+                                  "or use more processes on more machines");
+    }
+  }
 
-  std::optional<granular::Box> MakeBox(Self* self);
-  granular::PackingRequest MakeRequest(Self* self, vtkInformation* output);
-  void Fill(Self* self, const granular::PackingPlan& plan, vtkInformationVector* outputs,
-    granular::Progress& progress);
-  void Run(Self* self, vtkInformation* request, vtkInformationVector* outputs);
+  /**
+   * None, if it is to be made for the grains.
+   */
+  std::optional<granular::Box> FindBox() const
+  {
+    const auto& lengths = this->Self->BoxLengths;
+    const auto& [xy, xz, yz] = this->Self->BoxTilts;
+    if (std::ranges::count(lengths, 0) == 3)
+    {
+      if (xy != 0 || xz != 0 || yz != 0)
+      {
+        throw granular::LimitError("expected BoxLengths of the box that BoxTilts are of, got none");
+      }
+      return {};
+    }
+    for (const double length : lengths)
+    {
+      if (!(length > 0))
+      {
+        throw granular::LimitError(
+          "expected BoxLengths greater than 0, got " + std::to_string(length));
+      }
+    }
+    const double edges[] = { lengths[0], 0, 0, xy, lengths[1], 0, xz, yz, lengths[2] };
+    return MakeBox(this->Self->BoxOrigin, edges);
+  }
+
+  granular::PackingRequest MakeRequest() const
+  {
+    const vtkGranularPackingSource& self = *this->Self;
+    granular::PackingRequest request;
+    request.arrangement = ArrangementOf(self.Arrangement);
+    request.box = this->FindBox();
+    std::copy_n(self.BoxOrigin, 3, request.corner.begin());
+    constexpr vtkTypeInt64 grainsWithoutBox = 1000;
+    request.grains =
+      self.NumberOfGrains == 0 && !request.box ? grainsWithoutBox : self.NumberOfGrains;
+    request.boundary = self.Boundary;
+    request.radii.kind = KindOf(self.Radii);
+    request.radii.first = self.Radius;
+    request.radii.second = self.SecondRadius;
+    request.radii.share = self.SecondShare;
+    request.solid_fraction = self.SolidFraction;
+    request.spacing = self.Spacing;
+    request.speed = self.Speed;
+    request.seed = static_cast<std::uint64_t>(self.Seed);
+    request.piece = this->Wanted.Piece;
+    request.pieces = this->Wanted.Pieces;
+    request.ranges = true; // whoever shows an array asks for it
+    request.threads = this->Threads;
+    return request;
+  }
+
+  void Fill(const granular::PackingPlan& plan)
+  {
+    const bool bonded = this->Self->BondFactor != 0;
+    this->Progress.set_part(0.6, bonded ? 0.8 : 1);
+    granular::DumpFrame frame = granular::make_packing(plan, this->Progress);
+    if (bonded)
+    {
+      this->Progress.set_part(0.8, 1);
+      granular::GrainBonds bonds =
+        granular::make_bonds(plan, this->Self->BondFactor, this->Progress);
+      FillBonds(this->GetOutput<vtkPolyData>(BONDS), bonds);
+    }
+    FillParticles(this->GetOutput<vtkPolyData>(GRAINS), frame, false, VertexCells::OnePerPoint,
+      *this->Self->Vertices, nullptr);
+    if (plan.request.piece == 0)
+    {
+      FillBox(this->GetOutput<vtkUnstructuredGrid>(BOX), frame.header.box, frame.coordinates, {});
+    }
+    for (const int port : { GRAINS, BOX, BONDS })
+    {
+      FillFieldData(this->GetOutput<vtkDataObject>(port)->GetFieldData(), frame, {});
+    }
+    this->GetOutput<vtkDataObject>(BONDS)->GetFieldData()->RemoveArray("Columns"); // of grains
+  }
 };
 
 //------------------------------------------------------------------------------
-// None, if it is to be made for the grains.
-std::optional<granular::Box> vtkGranularPackingSource::Internals::MakeBox(Self* self)
-{
-  const auto vector = [](double x, double y, double z) -> granular::Twofold3 {
-    return { granular::Twofold{ x, 0 }, granular::Twofold{ y, 0 }, granular::Twofold{ z, 0 } };
-  };
-  const double* origin = self->BoxOrigin;
-  const double* lengths = self->BoxLengths;
-  const double* tilts = self->BoxTilts;
-  const auto isZero = [](double number) { return number == 0; };
-  if (std::all_of(lengths, lengths + 3, isZero))
-  {
-    if (!std::all_of(tilts, tilts + 3, isZero))
-    {
-      throw granular::LimitError("expected BoxLengths of the box that BoxTilts are of, got none");
-    }
-    return {};
-  }
-  granular::Box box;
-  box.origin = vector(origin[0], origin[1], origin[2]);
-  box.vectors = { vector(lengths[0], 0, 0), vector(tilts[0], lengths[1], 0),
-    vector(tilts[1], tilts[2], lengths[2]) };
-  box.tilted = tilts[0] != 0 || tilts[1] != 0 || tilts[2] != 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (!(lengths[axis] > 0))
-    {
-      throw granular::LimitError(
-        "expected BoxLengths greater than 0, got " + std::to_string(lengths[axis]));
-    }
-  }
-  return box;
-}
-
-//------------------------------------------------------------------------------
-granular::PackingRequest vtkGranularPackingSource::Internals::MakeRequest(
-  Self* self, vtkInformation* output)
-{
-  granular::PackingRequest request;
-  request.arrangement = ArrangementOf(self->Arrangement);
-  request.box = this->MakeBox(self);
-  std::copy_n(self->BoxOrigin, 3, request.corner.begin());
-  constexpr vtkTypeInt64 grainsWithoutBox = 1000;
-  request.grains =
-    self->NumberOfGrains == 0 && !request.box ? grainsWithoutBox : self->NumberOfGrains;
-  request.boundary = this->Boundary;
-  request.radii.kind = KindOf(self->Radii);
-  request.radii.first = self->Radius;
-  request.radii.second = self->SecondRadius;
-  request.radii.share = self->SecondShare;
-  request.solid_fraction = self->SolidFraction;
-  request.spacing = self->Spacing;
-  request.speed = self->Speed;
-  request.seed = static_cast<std::uint64_t>(self->Seed);
-  const PieceRequest wanted = PieceRequest::Of(output);
-  request.piece = wanted.Piece;
-  request.pieces = wanted.Pieces;
-  request.ranges = true; // whoever shows an array asks for it
-  request.threads = ChooseThreads(self->Threads, self->Ranks->Get());
-  return request;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPackingSource::Internals::Fill(Self* self, const granular::PackingPlan& plan,
-  vtkInformationVector* outputs, granular::Progress& progress)
-{
-  const bool bonded = self->BondFactor != 0;
-  granular::PartialProgress part(progress);
-  part.set_part(0, bonded ? 0.5 : 1);
-  granular::DumpFrame frame = granular::make_packing(plan, part);
-  if (bonded)
-  {
-    part.set_part(0.5, 1);
-    granular::GrainBonds bonds = granular::make_bonds(plan, self->BondFactor, part);
-    FillBonds(vtkPolyData::GetData(outputs, BONDS), bonds);
-  }
-  FillParticles(vtkPolyData::GetData(outputs, GRAINS), frame, false, VertexCells::OnePerPoint,
-    this->Vertices, nullptr);
-  if (plan.request.piece == 0)
-  {
-    FillBox(vtkUnstructuredGrid::GetData(outputs, BOX), frame.header.box, frame.coordinates, {});
-  }
-  for (int i = 0; i < outputs->GetNumberOfInformationObjects(); ++i)
-  {
-    FillFieldData(vtkDataObject::GetData(outputs, i)->GetFieldData(), frame, {});
-  }
-  vtkDataObject::GetData(outputs, BONDS)->GetFieldData()->RemoveArray("Columns"); // of grains
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPackingSource::Internals::Run(
-  Self* self, vtkInformation* request, vtkInformationVector* outputs)
-{
-  granular::Communicator& ranks = self->Ranks->Get();
-  const int port = request->Has(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT())
-    ? std::max(request->Get(vtkDemandDrivenPipeline::FROM_OUTPUT_PORT()), 0)
-    : 0;
-  AlgorithmProgress own(self);
-  granular::SharedProgress progress(own, ranks);
-  granular::PartialProgress part(progress);
-  const granular::PackingRequest wanted =
-    this->MakeRequest(self, outputs->GetInformationObject(port));
-  try
-  {
-    part.set_part(0, 0.6);
-    const granular::PackingPlan plan(wanted, part);
-    part.set_part(0.6, 1);
-    this->Fill(self, plan, outputs, part);
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw granular::MemoryError("not enough memory for so many grains and bonds: ask for fewer, or "
-                                "use more processes on more machines");
-  }
-}
-
-//------------------------------------------------------------------------------
 vtkGranularPackingSource::vtkGranularPackingSource()
-  : Internal(std::make_unique<Internals>())
+  : Vertices(std::make_unique<VertexCache>())
 {
-  this->SetNumberOfInputPorts(0);
-  this->SetNumberOfOutputPorts(NUMBER_OF_PORTS);
+  this->SetPorts({}, { "vtkPolyData", "vtkUnstructuredGrid", "vtkPolyData" });
 }
 
 //------------------------------------------------------------------------------
@@ -223,34 +186,10 @@ vtkPolyData* vtkGranularPackingSource::GetOutput()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularPackingSource::SetBoundary(const char* boundary)
+void vtkGranularPackingSource::Execute(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const std::string wanted = boundary ? boundary : "";
-  if (this->Internal->Boundary != wanted)
-  {
-    this->Internal->Boundary = wanted;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-const char* vtkGranularPackingSource::GetBoundary()
-{
-  return this->Internal->Boundary.c_str();
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularPackingSource::FillOutputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == BOX ? "vtkUnstructuredGrid" : "vtkPolyData");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPackingSource::Execute(vtkInformation* request,
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  this->Internal->Run(this, request, outputVector);
+  Task(this, request, inputVector, outputVector, true).Run();
 }
 
 //------------------------------------------------------------------------------
@@ -264,7 +203,7 @@ void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
   numbers("BoxOrigin", this->BoxOrigin);
   numbers("BoxLengths", this->BoxLengths);
   numbers("BoxTilts", this->BoxTilts);
-  os << indent << "Boundary: " << this->Internal->Boundary << "\n";
+  os << indent << "Boundary: " << this->Boundary << "\n";
   os << indent << "Radii: " << this->Radii << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "SecondRadius: " << this->SecondRadius << "\n";

@@ -28,8 +28,14 @@
 #include "vtkGranularModule.h" // For export macro
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
 class vtkPolyData;
+
+namespace vtkGranularPrivate
+{
+class VertexCache;
+}
 
 class VTKGRANULAR_EXPORT vtkGranularPackingSource : public vtkGranularAlgorithm
 {
@@ -89,8 +95,8 @@ public:
    * Sets the faces along the three box vectors: one or two of the letters p (periodic), f, s, m (particles stay inside)
    * each. "ff ff ff" by default.
    */
-  void SetBoundary(const char* boundary);
-  const char* GetBoundary();
+  vtkSetStdStringFromCharMacro(Boundary);
+  vtkGetCharFromStdStringMacro(Boundary);
   ///@}
 
   ///@{
@@ -139,8 +145,6 @@ public:
 protected:
   vtkGranularPackingSource();
   ~vtkGranularPackingSource() override;
-
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -148,11 +152,14 @@ private:
   vtkGranularPackingSource(const vtkGranularPackingSource&) = delete;
   void operator=(const vtkGranularPackingSource&) = delete;
 
+  class Task;
+
   int Arrangement = RANDOM;
   vtkTypeInt64 NumberOfGrains = 0;
   double BoxOrigin[3] = { 0, 0, 0 };
   double BoxLengths[3] = { 0, 0, 0 };
   double BoxTilts[3] = { 0, 0, 0 };
+  std::string Boundary = "ff ff ff";
   int Radii = TWO;
   double Radius = 0.003;
   double SecondRadius = 0.005;
@@ -162,9 +169,7 @@ private:
   double BondFactor = 0;
   double Speed = 0;
   int Seed = 1;
-
-  struct Internals;
-  std::unique_ptr<Internals> Internal;
+  const std::unique_ptr<vtkGranularPrivate::VertexCache> Vertices; ///< of the request before
 };
 
 #endif
