@@ -14,7 +14,7 @@
 
 #include "granular/euler/grain_values.h"
 #include "granular/grid/sphere_box.h"
-#include "granular/local/ids.h"
+#include "granular/local/fetch_particles.h"
 #include "granular/numbers/number_print.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/compare_lines.h"
