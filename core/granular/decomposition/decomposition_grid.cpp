@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_grid.h"
 
-#include "granular/vtk_files/vtk_sections.h"
-
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -13,8 +11,6 @@ namespace granular
 namespace
 {
 constexpr std::int64_t points_a_cell = corners_of_voxel;
-constexpr std::string_view rectilinear = "RECTILINEAR_GRID";
-constexpr std::string_view unstructured = "UNSTRUCTURED_GRID";
 
 constexpr ProcessArray all_process_arrays[] = {
   { "nlocal", &DecompositionGrid::has_particles, &DecompositionGrid::particles,
@@ -29,51 +25,29 @@ constexpr ProcessArray all_process_arrays[] = {
 class GridReader
 {
 public:
-  GridReader(LegacyVtk& file, bool keep);
+  GridReader(LegacyVtk& file, bool keep)
+    : file_(file)
+    , keep_(keep)
+    , sections_(file, grid_, keep, keep)
+  {
+  }
 
   DecompositionGrid read();
 
 private:
-  static const VtkSection<GridReader> sections[];
-
   void read_header();
   void end_sections(bool at_end);
-  void read_dimensions();
-  void read_coordinates();
-  void read_points();
-  void read_cells();
-  void read_types();
   void read_data(bool of_cells);
   bool take(const VtkArray& array);
   void limit(std::int64_t cells) const;
-  WhereOf places(const VtkPlace& first, const VtkArray& array);
 
   LegacyVtk& file_;
   bool keep_;
   DecompositionGrid grid_;
-  VtkSections<GridReader> sections_;
+  VtkGridReader sections_;
   bool of_cells_ = false;
   std::int64_t tuples_ = 0; ///< of the arrays at hand
-  std::int64_t types_ = 0;
-  VtkPlace types_place_;
 };
-
-const VtkSection<GridReader> GridReader::sections[] = {
-  { rectilinear, "DIMENSIONS", &GridReader::read_dimensions },
-  { rectilinear, "X_COORDINATES", &GridReader::read_coordinates },
-  { rectilinear, "Y_COORDINATES", &GridReader::read_coordinates },
-  { rectilinear, "Z_COORDINATES", &GridReader::read_coordinates },
-  { unstructured, "POINTS", &GridReader::read_points },
-  { unstructured, "CELLS", &GridReader::read_cells },
-  { unstructured, "CELL_TYPES", &GridReader::read_types },
-};
-
-GridReader::GridReader(LegacyVtk& file, bool keep)
-  : file_(file)
-  , keep_(keep)
-  , sections_(file, sections)
-{
-}
 
 DecompositionGrid GridReader::read()
 {
@@ -83,8 +57,13 @@ DecompositionGrid GridReader::read()
     if (file_.is("CELL_DATA") || file_.is("POINT_DATA"))
     {
       this->read_data(file_.is("CELL_DATA"));
+      continue;
     }
-    else if (!sections_.read(grid_.header.dataset, *this) &&
+    if (!grid_.rectilinear && (file_.is("POINTS") || file_.is("CELLS")))
+    {
+      this->limit(file_.count(1) / (file_.is("POINTS") ? points_a_cell : 1));
+    }
+    if (!sections_.read() &&
       !file_.take_arrays(tuples_, [this](const VtkArray& array) { return this->take(array); }))
     {
       file_.fail("a section of the grid", file_.words().front());
@@ -104,8 +83,8 @@ void GridReader::read_header()
     file_.fail_missing(
       expected, ": LIGGGHTS writes a header without a grid where a timestep is dumped again");
   }
-  grid_.rectilinear = dataset == rectilinear;
-  if (!grid_.rectilinear && dataset != unstructured)
+  grid_.rectilinear = dataset == vtk_rectilinear;
+  if (!grid_.rectilinear && dataset != vtk_unstructured)
   {
     file_.fail(expected, dataset);
   }
@@ -114,18 +93,8 @@ void GridReader::read_header()
 /// All sections must have been there.
 void GridReader::end_sections(bool at_end)
 {
-  sections_.end(grid_.header.dataset, at_end);
-  if (grid_.rectilinear)
-  {
-    grid_.cells = cells_between(grid_.counts);
-    this->limit(grid_.cells);
-  }
-  else if (types_ != grid_.cells)
-  {
-    throw FormatError("expected CELL_TYPES of " + std::to_string(grid_.cells) + " cells, got " +
-        std::to_string(types_),
-      file_.where(types_place_));
-  }
+  sections_.end(at_end);
+  this->limit(grid_.rectilinear ? grid_.cells : 0);
 }
 
 void GridReader::limit(std::int64_t cells) const
@@ -136,54 +105,6 @@ void GridReader::limit(std::int64_t cells) const
         std::to_string(cells),
       file_.where(file_.line_place()));
   }
-}
-
-void GridReader::read_dimensions()
-{
-  grid_.dimensions = { file_.count(1), file_.count(2), file_.count(3) };
-}
-
-/// Places of the values of an array, for messages.
-WhereOf GridReader::places(const VtkPlace& first, const VtkArray& array)
-{
-  return [this, first, array](std::int64_t number) { return file_.where_of(first, array, number); };
-}
-
-void GridReader::read_coordinates()
-{
-  const VtkArray array = file_.values(1);
-  const auto axis = static_cast<std::size_t>((file_.words().front().front() | 0x20) - 'x');
-  if (array.tuples < 2)
-  {
-    file_.fail("at least 2 coordinates", file_.words()[1]);
-  }
-  grid_.counts[axis] = array.tuples;
-  file_.take(array, keep_, grid_.coordinates[axis]);
-}
-
-void GridReader::read_points()
-{
-  const VtkArray array = file_.values(3);
-  this->limit(array.tuples / points_a_cell);
-  file_.take(array, keep_, grid_.points);
-}
-
-void GridReader::read_cells()
-{
-  this->limit(file_.count(1));
-  grid_.voxels = read_eight_point_cells(file_, keep_);
-  grid_.cells = grid_.voxels.size;
-}
-
-void GridReader::read_types()
-{
-  const VtkArray array = { {}, ValueType::Int32, 1, file_.count(1) };
-  types_ = array.tuples;
-  types_place_ = file_.line_place();
-  std::vector<std::int64_t> types;
-  const VtkPlace first = file_.place();
-  file_.take(array, keep_, types);
-  check_types(types, this->places(first, array));
 }
 
 void GridReader::read_data(bool of_cells)
@@ -206,9 +127,7 @@ void GridReader::read_data(bool of_cells)
 /// Reads the arrays that tell what is known of a process.
 bool GridReader::take(const VtkArray& array)
 {
-  const auto* const known =
-    std::find_if(std::begin(all_process_arrays), std::end(all_process_arrays),
-      [&](const ProcessArray& entry) { return entry.name == array.name; });
+  const auto* const known = std::ranges::find(all_process_arrays, array.name, &ProcessArray::name);
   if (!of_cells_ || known == std::end(all_process_arrays) ||
     (known->only_if_none && grid_.*known->there))
   {
@@ -224,7 +143,7 @@ bool GridReader::take(const VtkArray& array)
   std::vector<std::int64_t>& numbers = grid_.*known->numbers;
   const VtkPlace first = file_.place();
   file_.take(array, keep_, numbers);
-  known->check(numbers, this->places(first, array));
+  known->check(numbers, [&](std::int64_t number) { return file_.where_of(first, array, number); });
   return true;
 }
 }

@@ -4,10 +4,9 @@
 
 #include "granular/decomposition/subdomains.h"
 #include "granular/decomposition/voxels.h"
-#include "granular/vtk_files/legacy_vtk.h"
 #include "granular/vtk_files/vtk_corners.h"
+#include "granular/vtk_files/vtk_grid.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,24 +19,15 @@ namespace granular
 /// could claim any number of them.
 inline constexpr std::int64_t most_processes = std::int64_t{ 1 } << 24;
 
-/// A dataset of a decomposition file, as it stands in the file. Vectors are filled only if they were to be kept.
-struct DecompositionGrid
+/// A dataset of a decomposition file, as it stands in the file.
+struct DecompositionGrid : VtkGrid
 {
-  VtkHeader header;
   bool rectilinear = false;
-  std::int64_t cells = 0;
   bool has_data = false; ///< of points or cells
   bool has_particles = false;
   bool has_ranks = false;
   std::vector<std::int64_t> particles;
   std::vector<std::int64_t> ranks;
-
-  std::array<std::int64_t, 3> dimensions = {};         ///< as DIMENSIONS says
-  std::array<std::int64_t, 3> counts = {};             ///< of coordinates
-  std::array<std::vector<double>, 3> coordinates = {}; ///< in any order
-
-  std::vector<double> points;
-  VtkCells voxels; ///< of eight points each, all of them there
 
   /// Returns true if DIMENSIONS announce more cells than the dataset has, as in the per-rank files of PFM.
   bool is_piece() const noexcept;

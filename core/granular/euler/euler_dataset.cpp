@@ -4,20 +4,16 @@
 #include "granular/euler/cells.h"
 #include "granular/grid/euler_grid.h"
 #include "granular/vtk_files/vtk_corners.h"
-#include "granular/vtk_files/vtk_sections.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace granular
 {
 namespace
 {
-constexpr std::string_view points = "POLYDATA";
-constexpr std::string_view rectilinear = "RECTILINEAR_GRID";
-constexpr std::string_view unstructured = "UNSTRUCTURED_GRID";
-
 /// Line 2 of what LIGGGHTS and PFM write.
 constexpr std::string_view liggghts_title = "LIGGGHTS mesh/VTK export";
 
@@ -34,70 +30,35 @@ class DatasetReader
 {
 public:
   DatasetReader(LegacyVtk& file, EulerRead what,
-    const std::function<bool(std::string_view)>& wanted, EulerDataset& dataset);
+    const std::function<bool(std::string_view)>& wanted, EulerDataset& dataset)
+    : file_(file)
+    , what_(what)
+    , wanted_(wanted)
+    , dataset_(dataset)
+    , sections_(file, dataset, what == EulerRead::Values, what != EulerRead::Names)
+  {
+  }
 
   void read();
 
 private:
-  static const VtkSection<DatasetReader> sections[];
-
   void read_header();
   void read_section();
   void end_sections(bool at_end);
-  void read_points();
-  void read_vertices();
-  void read_dimensions();
-  void read_coordinates();
-  void read_cells();
-  void read_types();
   void begin_data(bool of_cells);
   bool take(const VtkArray& array);
   void check(const VtkArray& array) const;
   void check_arrays();
-  void find_centres();
-  bool keep() const noexcept { return what_ == EulerRead::Values; }
+  void make_frame();
 
   LegacyVtk& file_;
   EulerRead what_;
   const std::function<bool(std::string_view)>& wanted_;
   EulerDataset& dataset_;
-  EulerFrame& frame_;
-  VtkSections<DatasetReader> sections_;
+  VtkGridReader sections_;
   bool is_data_ = false;    ///< arrays are of the cells
   std::int64_t tuples_ = 0; ///< of the arrays at hand
-
-  std::array<std::int64_t, 3> dimensions_ = {};
-  std::array<std::int64_t, 3> counts_ = {}; ///< of coordinates
-  VtkPlace dimensions_place_;
-
-  std::vector<double> corners_;
-  VtkCells cells_; ///< hexahedra
-  std::int64_t types_ = 0;
-  VtkPlace types_place_;
 };
-
-const VtkSection<DatasetReader> DatasetReader::sections[] = {
-  { points, "POINTS", &DatasetReader::read_points },
-  { points, "VERTICES", &DatasetReader::read_vertices, true },
-  { rectilinear, "DIMENSIONS", &DatasetReader::read_dimensions },
-  { rectilinear, "X_COORDINATES", &DatasetReader::read_coordinates },
-  { rectilinear, "Y_COORDINATES", &DatasetReader::read_coordinates },
-  { rectilinear, "Z_COORDINATES", &DatasetReader::read_coordinates },
-  { unstructured, "POINTS", &DatasetReader::read_points },
-  { unstructured, "CELLS", &DatasetReader::read_cells },
-  { unstructured, "CELL_TYPES", &DatasetReader::read_types },
-};
-
-DatasetReader::DatasetReader(LegacyVtk& file, EulerRead what,
-  const std::function<bool(std::string_view)>& wanted, EulerDataset& dataset)
-  : file_(file)
-  , what_(what)
-  , wanted_(wanted)
-  , dataset_(dataset)
-  , frame_(dataset.frame)
-  , sections_(file, sections)
-{
-}
 
 void DatasetReader::read()
 {
@@ -108,9 +69,9 @@ void DatasetReader::read()
   }
   this->end_sections(true);
   this->check_arrays();
-  if (this->keep())
+  if (what_ == EulerRead::Values)
   {
-    this->find_centres();
+    this->make_frame();
   }
 }
 
@@ -123,7 +84,7 @@ void DatasetReader::read_header()
   {
     file_.fail_missing(expected);
   }
-  if (kind != points && kind != rectilinear && kind != unstructured)
+  if (kind != vtk_points && kind != vtk_rectilinear && kind != vtk_unstructured)
   {
     file_.fail(expected, kind);
   }
@@ -135,7 +96,7 @@ void DatasetReader::read_section()
   {
     this->begin_data(file_.is("CELL_DATA"));
   }
-  else if (!sections_.read(dataset_.header.dataset, *this))
+  else if (!sections_.read())
   {
     const bool is_table = file_.is("LOOKUP_TABLE"); // of colours
     const auto take = [this](const VtkArray& array) { return this->take(array); };
@@ -149,104 +110,29 @@ void DatasetReader::read_section()
 /// All sections must have been there, and agree.
 void DatasetReader::end_sections(bool at_end)
 {
-  sections_.end(dataset_.header.dataset, at_end);
-  if (dataset_.header.dataset == rectilinear && counts_ != dimensions_)
+  sections_.end(at_end);
+  const auto& [counts, dimensions] = std::pair(dataset_.counts, dataset_.dimensions);
+  if (counts != dimensions)
   {
-    const auto text = [](const std::array<std::int64_t, 3>& counts)
-    {
-      return std::to_string(counts[0]) + " " + std::to_string(counts[1]) + " " +
-        std::to_string(counts[2]);
+    const auto text = [](const std::array<std::int64_t, 3>& each) {
+      return std::to_string(each[0]) + " " + std::to_string(each[1]) + " " +
+        std::to_string(each[2]);
     };
     throw FormatError(
-      "expected DIMENSIONS " + text(counts_) + " as of the coordinates, got " + text(dimensions_),
-      file_.where(dimensions_place_));
+      "expected DIMENSIONS " + text(counts) + " as of the coordinates, got " + text(dimensions),
+      file_.where(dataset_.dimensions_place));
   }
-  if (dataset_.header.dataset == rectilinear)
-  {
-    frame_.cells = cells_between(counts_);
-  }
-  else if (dataset_.header.dataset == unstructured && types_ != frame_.cells)
-  {
-    throw FormatError("expected CELL_TYPES of " + std::to_string(frame_.cells) + " cells, got " +
-        std::to_string(types_),
-      file_.where(types_place_));
-  }
-}
-
-void DatasetReader::read_points()
-{
-  const VtkArray array = file_.values(3);
-  const bool are_centres = dataset_.header.dataset == points;
-  frame_.cells = are_centres ? array.tuples : 0;
-  file_.take(array, this->keep(), are_centres ? frame_.centres : corners_);
-}
-
-/// Values are of points: what the vertices are does not matter, as long as there is nothing wrong with them.
-void DatasetReader::read_vertices()
-{
-  const std::int64_t first = file_.count(1);
-  const std::int64_t second = file_.count(2);
-  const VtkCells vertices = file_.cells(this->keep());
-  dataset_.has_vertices =
-    vertices.counted ? second / 2 == first && second % 2 == 0 : second == vertices.size;
-  const auto& numbers = vertices.connectivity;
-  const auto other = std::find_if(numbers.begin(), numbers.end(),
-    [this](std::int64_t number) { return number < 0 || number >= frame_.cells; });
-  if (other != numbers.end())
-  {
-    const auto after =
-      std::upper_bound(vertices.offsets.begin(), vertices.offsets.end(), other - numbers.begin());
-    const std::int64_t vertex = after - vertices.offsets.begin() - 1;
-    throw FormatError("expected points from 0 to " + std::to_string(frame_.cells - 1) +
-        " in vertex " + std::to_string(vertex) + ", got " + std::to_string(*other),
-      file_.where_of(vertices, vertex));
-  }
-}
-
-void DatasetReader::read_dimensions()
-{
-  dimensions_ = { file_.count(1), file_.count(2), file_.count(3) };
-  dimensions_place_ = file_.line_place();
-}
-
-void DatasetReader::read_coordinates()
-{
-  const VtkArray array = file_.values(1);
-  const auto axis = static_cast<std::size_t>((file_.words().front().front() | 0x20) - 'x');
-  if (array.tuples < 2)
-  {
-    file_.fail("at least 2 coordinates", file_.words()[1]);
-  }
-  counts_[axis] = array.tuples;
-  file_.take(array, this->keep(), frame_.faces[axis]);
-}
-
-void DatasetReader::read_cells()
-{
-  cells_ = read_eight_point_cells(file_, this->keep());
-  frame_.cells = cells_.size;
-}
-
-void DatasetReader::read_types()
-{
-  const VtkArray array = { {}, ValueType::Int32, 1, file_.count(1) };
-  types_ = array.tuples;
-  types_place_ = file_.line_place();
-  std::vector<std::int64_t> types;
-  const VtkPlace first = file_.place();
-  file_.take(array, what_ != EulerRead::Names, types);
-  check_types(types, [&](std::int64_t cell) { return file_.where_of(first, array, cell); });
 }
 
 void DatasetReader::begin_data(bool of_cells)
 {
   this->end_sections(false);
-  const bool by_points = dataset_.header.dataset == points;
+  const bool by_points = dataset_.header.dataset == vtk_points;
   tuples_ = file_.count(1);
   is_data_ = of_cells != by_points;
-  if (is_data_ && tuples_ != frame_.cells)
+  if (is_data_ && tuples_ != dataset_.cells)
   {
-    file_.fail("data of " + std::to_string(frame_.cells) + (by_points ? " points" : " cells"),
+    file_.fail("data of " + std::to_string(dataset_.cells) + (by_points ? " points" : " cells"),
       file_.words()[1]);
   }
 }
@@ -265,13 +151,13 @@ bool DatasetReader::take(const VtkArray& array)
   }
   this->check(array);
   dataset_.names.push_back(array.name);
-  if (!this->keep() || !wanted_(array.name))
+  if (what_ != EulerRead::Values || !wanted_(array.name))
   {
     return false;
   }
   EulerValues values = { array.name, static_cast<int>(array.components), {} };
   file_.read(array, values.values);
-  frame_.arrays.push_back(std::move(values));
+  dataset_.frame.arrays.push_back(std::move(values));
   return true;
 }
 
@@ -282,11 +168,11 @@ void DatasetReader::check(const VtkArray& array) const
   const bool fits = is_known
     ? array.components == known->components
     : array.components > 0 && array.components <= std::numeric_limits<int>::max();
-  if (!fits || array.tuples != frame_.cells)
+  if (!fits || array.tuples != dataset_.cells)
   {
     const std::string components =
       is_known ? std::to_string(known->components) + " x " : "any number x ";
-    file_.fail("values of '" + array.name + "', " + components + std::to_string(frame_.cells),
+    file_.fail("values of '" + array.name + "', " + components + std::to_string(dataset_.cells),
       std::to_string(array.components) + " x " + std::to_string(array.tuples));
   }
   if (dataset_.has(array.name))
@@ -301,35 +187,43 @@ void DatasetReader::check_arrays()
   for (const EulerArray& array : euler_arrays())
   {
     const bool needed = dataset_.has_title() ? !array.optional : is_telling(array.name);
-    if (what_ != EulerRead::Look && needed && frame_.cells > 0 && !dataset_.has(array.name))
+    if (what_ != EulerRead::Look && needed && dataset_.cells > 0 && !dataset_.has(array.name))
     {
       file_.fail_missing("an array '" + std::string(array.name) + "'");
     }
   }
 }
 
-/// The middle of cells that have faces.
-void DatasetReader::find_centres()
+/// Centres are points, or the middle of cells that have faces.
+void DatasetReader::make_frame()
 {
-  const auto add = [this](double x, double y, double z) {
-    frame_.centres.insert(frame_.centres.end(), { x, y, z });
-  };
-  if (dataset_.header.dataset == rectilinear)
+  EulerFrame& frame = dataset_.frame;
+  frame.cells = dataset_.cells;
+  if (dataset_.header.dataset == vtk_points)
   {
+    frame.centres = std::move(dataset_.points);
+    return;
+  }
+  const auto add = [&](double x, double y, double z) {
+    frame.centres.insert(frame.centres.end(), { x, y, z });
+  };
+  if (dataset_.header.dataset == vtk_rectilinear)
+  {
+    std::ranges::move(dataset_.coordinates, frame.faces);
     const auto middle = [&](std::size_t axis, std::int64_t cell)
     {
-      const double* const face = frame_.faces[axis].data() + cell;
+      const double* const face = frame.faces[axis].data() + cell;
       return std::midpoint(face[0], face[1]);
     };
-    CellRange{ {}, { counts_[0] - 1, counts_[1] - 1, counts_[2] - 1 } }.each(
-      [&](const std::array<std::int64_t, 3>& cell)
+    const auto& [x, y, z] = dataset_.counts;
+    CellRange{ {}, { x - 1, y - 1, z - 1 } }.each([&](const std::array<std::int64_t, 3>& cell)
       { add(middle(0, cell[0]), middle(1, cell[1]), middle(2, cell[2])); });
+    return;
   }
-  for (std::int64_t cell = 0; dataset_.header.dataset == unstructured && cell < frame_.cells;
-       ++cell)
+  for (std::int64_t cell = 0; cell < frame.cells; ++cell)
   {
-    const std::array<Vector3, corners_of_voxel> corners = corners_of(
-      corners_, cells_, cell, [&](std::int64_t at) { return file_.where_of(cells_, at); });
+    const std::array<Vector3, corners_of_voxel> corners = corners_of(dataset_.points,
+      dataset_.voxels, cell, [&](std::int64_t at) { return file_.where_of(dataset_.voxels, at); });
     // the opposite corners of a box have the same middle, which is then rounded once
     const auto middle = [&](std::size_t axis)
     {

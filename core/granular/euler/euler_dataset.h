@@ -3,7 +3,7 @@
 #define granular_euler_euler_dataset_h
 
 #include "granular/euler/euler_file.h"
-#include "granular/vtk_files/legacy_vtk.h"
+#include "granular/vtk_files/vtk_grid.h"
 
 #include <cstdint>
 #include <functional>
@@ -22,13 +22,11 @@ enum class EulerRead : std::uint8_t
 };
 
 /// A dataset of an Euler file as it stands there.
-struct EulerDataset
+struct EulerDataset : VtkGrid
 {
-  VtkHeader header;
-  bool has_vertices = false;      ///< of one point each
   std::vector<std::string> names; ///< of the arrays of the cells
   std::vector<std::string> texts; ///< of those that have no numbers
-  EulerFrame frame;
+  EulerFrame frame;               ///< of Values
 
   bool has(std::string_view name) const noexcept;
 

@@ -31,7 +31,7 @@ void tell(FileIndex& index, const Notice& notice)
 void add_frame(LegacyVtk& file, const EulerDataset& dataset, FileIndex& index)
 {
   FrameEntry entry;
-  entry.rows = dataset.frame.cells;
+  entry.rows = dataset.cells;
   entry.offset = dataset.header.place.offset;
   entry.end = file.place().offset;
   entry.line = dataset.header.binary ? 0 : dataset.header.place.line;
@@ -131,7 +131,7 @@ EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
   EulerDataset dataset;
   read_dataset(file, EulerRead::Values, wanted, dataset);
   const Where where = file.where(dataset.header.place);
-  check_cells(entry, dataset.frame.cells, where);
+  check_cells(entry, dataset.cells, where);
   if (!dataset.texts.empty())
   {
     notices.push_back({ where,
@@ -212,7 +212,7 @@ std::vector<std::string> euler_array_names(
   LegacyVtk file(source, { entry.offset, entry.line }, entry.end, progress);
   EulerDataset dataset;
   read_dataset(file, EulerRead::Names, none, dataset);
-  check_cells(entry, dataset.frame.cells, file.where(dataset.header.place));
+  check_cells(entry, dataset.cells, file.where(dataset.header.place));
   return std::move(dataset.names);
 }
 }
