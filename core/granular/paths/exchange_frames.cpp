@@ -4,6 +4,7 @@
 #include "granular/common/pass.h"
 #include "granular/common/shares.h"
 #include "granular/frames/header_archive.h"
+#include "granular/parallel/by_rank.h"
 #include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
 #include "granular/sorting/find_ids_at.h"
@@ -13,8 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <string>
+#include <type_traits>
 
 namespace granular
 {
@@ -164,73 +165,6 @@ std::vector<std::string> share_arrays(std::vector<PathFrame>& frames, Communicat
   }
   return lacking;
 }
-
-/// The words of a particle, one after the other.
-class RecordLayout
-{
-public:
-  explicit RecordLayout(const PathFrame& frame)
-    : images_(frame.has_images ? 3 : 0)
-    , rows_(frame.has_rows ? 1 : 0)
-  {
-    words_ = 1 + 3 + images_ + rows_;
-    for (const PathArray& array : frame.arrays)
-    {
-      words_ += static_cast<std::size_t>(array.size);
-    }
-  }
-
-  std::size_t words() const noexcept { return words_; }
-
-  void store(const PathFrame& frame, std::size_t i, Numbers& to) const
-  {
-    to.push_back(frame.ids[i]);
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      to.push_back(std::bit_cast<std::int64_t>(frame.points[3 * i + k]));
-    }
-    append(frame.images, i, images_, to);
-    append(frame.rows, i, rows_, to);
-    for (const PathArray& array : frame.arrays)
-    {
-      append(array.words, i, static_cast<std::size_t>(array.size), to);
-    }
-  }
-
-  /// Returns the word after the record.
-  const std::int64_t* load(const std::int64_t* from, PathFrame& frame) const
-  {
-    frame.ids.push_back(*from++);
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      frame.points.push_back(std::bit_cast<double>(*from++));
-    }
-    from = take(from, images_, frame.images);
-    from = take(from, rows_, frame.rows);
-    for (PathArray& array : frame.arrays)
-    {
-      from = take(from, static_cast<std::size_t>(array.size), array.words);
-    }
-    return from;
-  }
-
-private:
-  static void append(const Numbers& from, std::size_t i, std::size_t size, Numbers& to)
-  {
-    const auto* const first = from.data() + i * size;
-    to.insert(to.end(), first, first + size);
-  }
-
-  static const std::int64_t* take(const std::int64_t* from, std::size_t size, Numbers& to)
-  {
-    to.insert(to.end(), from, from + size);
-    return from + size;
-  }
-
-  std::size_t images_;
-  std::size_t rows_;
-  std::size_t words_ = 0;
-};
 }
 
 std::vector<std::string> share_kinds(std::vector<PathFrame>& frames, Communicator& ranks)
@@ -287,69 +221,31 @@ void exchange_frames(
       std::upper_bound(first_ids.begin(), first_ids.end(), id) - first_ids.begin());
   };
 
-  // for each rank: of each frame how many, and their records
   const auto size = static_cast<std::size_t>(ranks.size());
-  std::vector<Numbers> counts(size, Numbers(frames.size()));
-  std::vector<Numbers> records(size);
-  for (std::size_t f = 0; f < frames.size(); ++f)
+  for (PathFrame& frame : frames)
   {
-    PathFrame& frame = frames[f];
-    const RecordLayout layout(frame);
-    for (std::size_t i = 0; i < frame.ids.size(); ++i)
+    const ByRank sorted =
+      sort_by_rank(frame.ids.size(), size, [&](std::size_t i) { return owner_of(frame.ids[i]); });
+    const Numbers come = swap_numbers(sorted.counts, ranks);
+    const auto move = [&](auto& values, std::size_t width)
     {
-      const std::size_t owner = owner_of(frame.ids[i]);
-      ++counts[owner][f];
-      layout.store(frame, i, records[owner]);
-    }
-    frame.ids = {};
-    frame.points = {};
-    frame.images = {};
-    frame.rows = {};
+      std::remove_reference_t<decltype(values)> out;
+      out.reserve(values.size());
+      for (const std::int64_t place : sorted.places)
+      {
+        const auto* const first = values.data() + static_cast<std::size_t>(place) * width;
+        out.insert(out.end(), first, first + width);
+      }
+      values = trade(out, sorted.counts, come, ranks, width);
+    };
+    move(frame.points, 3);
+    move(frame.images, frame.has_images ? 3 : 0);
+    move(frame.rows, frame.has_rows ? 1 : 0);
     for (PathArray& array : frame.arrays)
     {
-      array.words = {};
+      move(array.words, static_cast<std::size_t>(array.size));
     }
-  }
-  const auto swap = [&](std::vector<Numbers>& parts)
-  {
-    Numbers sizes;
-    Numbers whole;
-    for (Numbers& part : parts)
-    {
-      sizes.push_back(static_cast<std::int64_t>(part.size()));
-      whole.insert(whole.end(), part.begin(), part.end());
-      part = {};
-    }
-    const Numbers come = swap_numbers(sizes, ranks);
-    return trade(whole, sizes, come, ranks);
-  };
-  const Numbers came_counts = swap(counts);
-  const Numbers came = swap(records);
-  // the records of each rank begin where those of the one before end
-  std::vector<const std::int64_t*> next(size, came.data());
-  for (std::size_t rank = 0; rank < size; ++rank)
-  {
-    const std::int64_t* end = next[rank];
-    for (std::size_t f = 0; f < frames.size(); ++f)
-    {
-      const std::int64_t rows = came_counts[rank * frames.size() + f];
-      end += static_cast<std::size_t>(rows) * RecordLayout(frames[f]).words();
-    }
-    if (rank + 1 < size)
-    {
-      next[rank + 1] = end;
-    }
-  }
-  for (std::size_t f = 0; f < frames.size(); ++f)
-  {
-    const RecordLayout layout(frames[f]);
-    for (std::size_t rank = 0; rank < size; ++rank)
-    {
-      for (std::int64_t i = came_counts[rank * frames.size() + f]; i > 0; --i)
-      {
-        next[rank] = layout.load(next[rank], frames[f]);
-      }
-    }
+    move(frame.ids, 1);
   }
 }
 }
