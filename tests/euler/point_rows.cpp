@@ -3,7 +3,7 @@
 #include "made_points.h"
 
 #include "granular/common/error.h"
-#include "granular/contacts/near_points.h"
+#include "granular/contacts/point_sources.h"
 
 #include "../support/thread_ranks.h"
 

@@ -191,12 +191,9 @@ private:
   void make_room()
   {
     const auto cells = static_cast<std::size_t>(request_.wanted.count(request_.grid));
-    EulerFields& fields = averages_.fields;
     EulerSums& sums = averages_.sums;
-    fields.contact_normal.resize(request_.tensors && contacts_.have_forces() ? 3 * cells : 0);
-    fields.contact_shear.resize(fields.contact_normal.size());
-    fields.coordination.resize(request_.fields.coordination ? cells : 0);
-    fields.fabric.resize(request_.fields.fabric ? 6 * cells : 0);
+    averages_.make_contact_room(request_.wanted.count(request_.grid),
+      request_.tensors && contacts_.have_forces(), request_.fields);
     const std::size_t kept = request_.keep_sums ? cells : 0;
     sums.ends.resize(kept);
     sums.contacts.resize(kept);
@@ -280,7 +277,6 @@ private:
 
   void finish_stress(const BlockSums::Group& group)
   {
-    EulerFields& fields = averages_.fields;
     EulerSums& sums_kept = averages_.sums;
     blocks_.each_cell(group, stresses_,
       [&](std::size_t, const std::array<std::int64_t, 3>& x, double volume,
@@ -292,16 +288,8 @@ private:
           return;
         }
         const auto to = static_cast<std::size_t>(place);
-        for (std::size_t k = 0; !fields.contact_normal.empty() && k < 3; ++k)
-        {
-          fields.contact_normal[3 * to + k] = sums[k] / volume;
-          fields.contact_shear[3 * to + k] = sums[3 + k] / volume;
-        }
-        if (!fields.coordination.empty())
-        {
-          const double share = averages_.sums.share[to];
-          fields.coordination[to] = share > 0 ? sums[ends_lane] / share : 0;
-        }
+        const double share = averages_.sums.share.empty() ? 0 : averages_.sums.share[to];
+        averages_.store_contacts(to, sums.data(), share, volume);
         if (request_.keep_sums)
         {
           sums_kept.ends[to] = sums[ends_lane];
@@ -320,15 +308,15 @@ private:
       [&](std::size_t, const std::array<std::int64_t, 3>& x, double, const SumScale::Terms& sums)
       {
         const std::int64_t place = request_.wanted.place(request_.grid, x);
-        for (std::size_t k = 0; place >= 0 && k < 6; ++k)
+        if (place < 0)
         {
-          const auto to = static_cast<std::size_t>(place);
-          const double counted = counted_[to];
-          averages_.fields.fabric[6 * to + k] = counted > 0 ? sums[k] / counted : 0;
-          if (request_.keep_sums)
-          {
-            averages_.sums.normals[6 * to + k] = sums[k];
-          }
+          return;
+        }
+        const auto to = static_cast<std::size_t>(place);
+        averages_.store_fabric(to, sums.data(), counted_[to]);
+        if (request_.keep_sums)
+        {
+          std::copy_n(sums.begin(), 6, averages_.sums.normals.begin() + 6 * place);
         }
       });
   }

@@ -20,186 +20,152 @@ namespace
 {
 constexpr auto most_rows = static_cast<std::int64_t>(GrainBlock::most_rows);
 
-class SourceFinder
+/// Extents of the points of all ranks.
+using Extents = std::vector<Extent>;
+
+/// The images that reach into what the points of all ranks reach.
+PeriodicImages find_images(const FrameView& frame, const Extents& extents)
 {
-public:
-  SourceFinder(
-    const FrameView& frame, const Extent& wanted, Communicator& ranks, Progress& progress)
-    : frame_(frame)
-    , ranks_(ranks)
-    , progress_(progress)
-    , extents_(gather(ranks, std::array{ wanted.lo, wanted.hi }))
+  Extent all;
+  for (const Extent& extent : extents)
   {
-  }
-
-  PointSources run(const GrainSources& sources, const FoundEnds* contacts)
-  {
-    found_.grains = this->send_grains(sources);
-    if (contacts)
+    if (!extent.empty())
     {
-      found_.lines = this->send_lines(contacts);
+      all.include(extent.lo);
+      all.include(extent.hi);
     }
-    return std::move(found_);
   }
+  const EulerGrid grid = all.empty() ? EulerGrid{ {}, { 1, 1, 1 }, { 1, 1, 1 } }
+                                     : EulerGrid{ all.lo, all.hi, { 1, 1, 1 } };
+  return PeriodicImages(grid, frame.has_box ? &frame.header.box : nullptr);
+}
 
-private:
-  /// The images that reach into what the points of all ranks reach.
-  PeriodicImages find_images() const
+/// Adds what reaches the points of any rank.
+template <class Thing>
+void add(const Thing& thing, const Extents& extents, std::vector<Thing>& things)
+{
+  const Extent own = extent_of(thing);
+  if (std::ranges::any_of(extents, [&](const Extent& extent) { return own.meets(extent); }))
   {
-    Extent all;
-    for (const auto& [lo, hi] : extents_)
+    things.push_back(thing);
+  }
+}
+
+/// Sends what reaches the points of a rank to it.
+template <class Thing>
+std::vector<Thing> send(std::vector<Thing> things, const Extents& extents, Communicator& ranks)
+{
+  if (ranks.size() == 1)
+  {
+    return things;
+  }
+  std::vector<Thing> out;
+  std::vector<std::int64_t> counts;
+  for (const Extent& wanted : extents)
+  {
+    const std::size_t before = out.size();
+    std::ranges::copy_if(things, std::back_inserter(out),
+      [&](const Thing& thing) { return extent_of(thing).meets(wanted); });
+    counts.push_back(static_cast<std::int64_t>(out.size() - before));
+  }
+  return trade(out, counts, swap_numbers(counts, ranks), ranks);
+}
+
+std::vector<NearGrain> find_grains(const FrameView& frame, const GrainSources& sources,
+  const Extents& extents, std::int64_t& broken, Progress& progress)
+{
+  const GrainValues values(frame, sources);
+  const PeriodicImages images = find_images(frame, extents);
+  images.check(0);
+  std::vector<NearGrain> grains;
+  GrainBlock block;
+  std::vector<std::int64_t> rows(GrainBlock::most_rows);
+  GrainValues::Scan scan;
+  for (std::int64_t first = 0; first < frame.rows; first += most_rows)
+  {
+    const auto count = std::min(frame.rows - first, most_rows);
+    std::iota(rows.begin(), rows.begin() + count, first);
+    values.scan(std::span(rows).first(static_cast<std::size_t>(count)), block, scan);
+    for (std::size_t i = 0; i < block.rows; ++i)
     {
-      if (lo[0] <= hi[0])
+      if (block.uses(i))
       {
-        all.include(lo);
-        all.include(hi);
+        const double* const v = block.velocities + 3 * i;
+        images.each(block.positions + 3 * i, 0,
+          [&](const Twofold3& image)
+          {
+            const NearGrain grain = { values_of(image), { v[0], v[1], v[2] }, block.mass[i],
+              block.radius[i], sphere_volume(block.radius[i]) };
+            add(grain, extents, grains);
+          });
       }
     }
-    const EulerGrid grid = all.empty() ? EulerGrid{ {}, { 1, 1, 1 }, { 1, 1, 1 } }
-                                       : EulerGrid{ all.lo, all.hi, { 1, 1, 1 } };
-    return PeriodicImages(grid, frame_.has_box ? &frame_.header.box : nullptr);
+    progress.step(static_cast<double>(first) / static_cast<double>(frame.rows));
   }
+  broken = scan.broken;
+  return grains;
+}
 
-  /// Returns true for what reaches the points of any rank.
-  template <class Thing>
-  bool is_wanted(const Thing& thing) const
+/// The longest component of the branches of all ranks.
+double find_longest(const FoundEnds& contacts, Communicator& ranks)
+{
+  double longest = 0;
+  for (std::size_t i = 0; i < contacts.rows(); ++i)
   {
-    return std::ranges::any_of(extents_,
-      [extent = extent_of(thing)](const std::array<Vector3, 2>& wanted) {
-        return extent.meets({ wanted[0], wanted[1] });
+    const auto [ends, row] = contacts.at(static_cast<std::int64_t>(i));
+    if (ends.has_line(row))
+    {
+      const auto [x, y, z] = ends.branch(row);
+      longest = std::max({ longest, std::abs(x), std::abs(y), std::abs(z) });
+    }
+  }
+  return std::ranges::max(gather(ranks, longest));
+}
+
+std::vector<NearLine> find_lines(const FrameView& frame, const FoundEnds& contacts,
+  const Extents& extents, Communicator& ranks, Progress& progress)
+{
+  const PeriodicImages images = find_images(frame, extents);
+  images.check(find_longest(contacts, ranks) / 2);
+  std::vector<NearLine> lines;
+  for (std::size_t i = 0; i < contacts.rows(); ++i)
+  {
+    if (i % 65536 == 0)
+    {
+      progress.step(static_cast<double>(i) / static_cast<double>(contacts.rows()));
+    }
+    const auto [ends, row] = contacts.at(static_cast<std::int64_t>(i));
+    if (!ends.has_line(row))
+    {
+      continue;
+    }
+    NearLine line;
+    const Vector3 start = ends.first(row);
+    line.branch = ends.branch(row);
+    line.normal = ContactEnds::normal(line.branch);
+    line.counts = ends.counts(row);
+    line.ends = line.counts * (ends.is_wall() ? 1 : 2);
+    line.force = ends.force(row);
+    Vector3 middle;
+    Vector3 reach;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      line.force[axis] *= ends.is_wall() ? -1 : 1;
+      middle[axis] = start[axis] + line.branch[axis] / 2;
+      reach[axis] = std::abs(line.branch[axis]) / 2;
+    }
+    images.each(middle.data(), reach,
+      [&](const Twofold3& image)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          line.start[axis] = start[axis] + (image[axis].hi - middle[axis] + image[axis].lo);
+        }
+        add(line, extents, lines);
       });
   }
-
-  /// Sends what reaches the points of a rank to it.
-  template <class Thing>
-  std::vector<Thing> send(std::vector<Thing> things)
-  {
-    if (ranks_.size() == 1)
-    {
-      return things;
-    }
-    std::vector<Thing> out;
-    std::vector<std::int64_t> counts;
-    for (const auto& [lo, hi] : extents_)
-    {
-      const Extent wanted{ lo, hi };
-      const std::size_t before = out.size();
-      std::ranges::copy_if(things, std::back_inserter(out),
-        [&](const Thing& thing) { return extent_of(thing).meets(wanted); });
-      counts.push_back(static_cast<std::int64_t>(out.size() - before));
-    }
-    return trade(out, counts, swap_numbers(counts, ranks_), ranks_);
-  }
-
-  std::vector<NearGrain> send_grains(const GrainSources& sources)
-  {
-    const GrainValues values(frame_, sources);
-    const PeriodicImages images = this->find_images();
-    images.check(0);
-    std::vector<NearGrain> grains;
-    GrainBlock block;
-    std::vector<std::int64_t> rows(GrainBlock::most_rows);
-    GrainValues::Scan scan;
-    for (std::int64_t first = 0; first < frame_.rows; first += most_rows)
-    {
-      const auto count = std::min(frame_.rows - first, most_rows);
-      std::iota(rows.begin(), rows.begin() + count, first);
-      values.scan(std::span(rows).first(static_cast<std::size_t>(count)), block, scan);
-      for (std::size_t i = 0; i < block.rows; ++i)
-      {
-        if (block.uses(i))
-        {
-          const double* const v = block.velocities + 3 * i;
-          images.each(block.positions + 3 * i, 0,
-            [&](const Twofold3& image)
-            {
-              const NearGrain grain = { values_of(image), { v[0], v[1], v[2] }, block.mass[i],
-                block.radius[i], sphere_volume(block.radius[i]) };
-              if (this->is_wanted(grain))
-              {
-                grains.push_back(grain);
-              }
-            });
-        }
-      }
-      progress_.step(static_cast<double>(first) / static_cast<double>(frame_.rows));
-    }
-    found_.broken = scan.broken;
-    ranks_.sum({ &found_.broken, 1 });
-    return this->send(std::move(grains));
-  }
-
-  /// The longest component of the branches of all ranks.
-  double find_longest(const FoundEnds& contacts)
-  {
-    double longest = 0;
-    for (std::size_t i = 0; i < contacts.rows(); ++i)
-    {
-      const auto [ends, row] = contacts.at(static_cast<std::int64_t>(i));
-      if (ends.has_line(row))
-      {
-        for (const double component : ends.branch(row))
-        {
-          longest = std::max(longest, std::abs(component));
-        }
-      }
-    }
-    return std::ranges::max(gather(ranks_, longest));
-  }
-
-  std::vector<NearLine> send_lines(const FoundEnds* contacts)
-  {
-    const PeriodicImages images = this->find_images();
-    images.check(this->find_longest(*contacts) / 2);
-    std::vector<NearLine> lines;
-    for (std::size_t i = 0; i < contacts->rows(); ++i)
-    {
-      if (i % 65536 == 0)
-      {
-        progress_.step(static_cast<double>(i) / static_cast<double>(contacts->rows()));
-      }
-      const auto [ends, row] = contacts->at(static_cast<std::int64_t>(i));
-      if (!ends.has_line(row))
-      {
-        continue;
-      }
-      NearLine line;
-      const Vector3 start = ends.first(row);
-      line.branch = ends.branch(row);
-      line.normal = ContactEnds::normal(line.branch);
-      line.counts = ends.counts(row);
-      line.ends = line.counts * (ends.is_wall() ? 1 : 2);
-      line.force = ends.force(row);
-      Vector3 middle;
-      Vector3 reach;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        line.force[axis] *= ends.is_wall() ? -1 : 1;
-        middle[axis] = start[axis] + line.branch[axis] / 2;
-        reach[axis] = std::abs(line.branch[axis]) / 2;
-      }
-      images.each(middle.data(), reach,
-        [&](const Twofold3& image)
-        {
-          for (std::size_t axis = 0; axis < 3; ++axis)
-          {
-            line.start[axis] = start[axis] + (image[axis].hi - middle[axis] + image[axis].lo);
-          }
-          if (this->is_wanted(line))
-          {
-            lines.push_back(line);
-          }
-        });
-    }
-    return this->send(std::move(lines));
-  }
-
-  const FrameView& frame_;
-  Communicator& ranks_;
-  Progress& progress_;
-  std::vector<std::array<Vector3, 2>> extents_; ///< of all ranks
-  PointSources found_;
-};
+  return lines;
+}
 }
 
 Extent extent_of(const NearGrain& grain) noexcept
@@ -219,7 +185,145 @@ Extent extent_of(const NearLine& line) noexcept
 PointSources find_point_sources(const FrameView& frame, const GrainSources& sources,
   const FoundEnds* contacts, const Extent& wanted, Communicator& ranks, Progress& progress)
 {
-  return do_together(
-    ranks, [&] { return SourceFinder(frame, wanted, ranks, progress).run(sources, contacts); });
+  return do_together(ranks,
+    [&]
+    {
+      const Extents extents = gather(ranks, wanted);
+      PointSources found;
+      found.grains = find_grains(frame, sources, extents, found.broken, progress);
+      ranks.sum({ &found.broken, 1 });
+      found.grains = send(std::move(found.grains), extents, ranks);
+      if (contacts)
+      {
+        found.lines = send(find_lines(frame, *contacts, extents, ranks, progress), extents, ranks);
+      }
+      return found;
+    });
+}
+
+bool Extent::meets(const Extent& other) const noexcept
+{
+  bool meets = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    meets = meets && lo[axis] <= other.hi[axis] && hi[axis] >= other.lo[axis];
+  }
+  return meets;
+}
+
+void Extent::include(const Vector3& point) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    lo[axis] = std::min(lo[axis], point[axis]);
+    hi[axis] = std::max(hi[axis], point[axis]);
+  }
+}
+
+Extent Extent::grown(double by) const noexcept
+{
+  Extent grown = *this;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    grown.lo[axis] = std::nextafter(grown.lo[axis] - by, -HUGE_VAL);
+    grown.hi[axis] = std::nextafter(grown.hi[axis] + by, HUGE_VAL);
+  }
+  return grown;
+}
+
+Extent extent_of(std::span<const double> points) noexcept
+{
+  Extent extent;
+  for (std::size_t i = 0; i + 3 <= points.size(); i += 3)
+  {
+    const Vector3 point = { points[i], points[i + 1], points[i + 2] };
+    if (std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))
+    {
+      extent.include(point);
+    }
+  }
+  return extent;
+}
+
+Bins::Bins(const Extent& whole, double edge, std::span<const Extent> things)
+  : whole_(whole)
+{
+  if (whole.empty())
+  {
+    return;
+  }
+  // as many bins as there are things, or some more
+  const double most = 4 * static_cast<double>(things.size()) + 64;
+  double count = 1;
+  std::array<double, 3> counts;
+  for (double by = edge;; by *= 2)
+  {
+    count = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      counts[axis] =
+        std::floor(whole.hi[axis] / by - whole.lo[axis] / by) + 1; // no overflow in the end
+      per_edge_[axis] = 1 / by;
+      count *= counts[axis];
+    }
+    if (count <= most)
+    {
+      break;
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    all_.last[axis] = static_cast<std::int64_t>(counts[axis]);
+  }
+  starts_.resize(static_cast<std::size_t>(all_.size()) + 1);
+  const auto each_bin = [&](const Extent& thing, const auto& take)
+  {
+    if (thing.meets(whole_))
+    {
+      this->range(thing).each([&](const std::array<std::int64_t, 3>& bin)
+        { take(static_cast<std::size_t>(all_.number(bin))); });
+    }
+  };
+  for (const Extent& thing : things)
+  {
+    each_bin(thing, [&](std::size_t bin) { ++starts_[bin + 1]; });
+  }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  things_.resize(static_cast<std::size_t>(starts_.back()));
+  std::vector<std::int64_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::size_t i = 0; i < things.size(); ++i)
+  {
+    each_bin(things[i],
+      [&](std::size_t bin)
+      { things_[static_cast<std::size_t>(next[bin]++)] = static_cast<std::uint32_t>(i); });
+  }
+}
+
+CellRange Bins::range(const Extent& extent) const noexcept
+{
+  CellRange range;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto bin = [&](double x)
+    {
+      const double place = std::floor((x - whole_.lo[axis]) * per_edge_[axis]);
+      return static_cast<std::int64_t>(
+        std::clamp(place, 0.0, static_cast<double>(all_.last[axis] - 1)));
+    };
+    range.first[axis] = bin(extent.lo[axis]);
+    range.last[axis] = bin(extent.hi[axis]) + 1;
+  }
+  return range;
+}
+
+std::span<const std::uint32_t> Bins::near(const Vector3& point) const noexcept
+{
+  if (!Extent{ point, point }.meets(whole_)) // false for nan
+  {
+    return {};
+  }
+  const auto bin = static_cast<std::size_t>(all_.number(this->range({ point, point }).first));
+  const auto first = static_cast<std::size_t>(starts_[bin]);
+  return std::span(things_).subspan(first, static_cast<std::size_t>(starts_[bin + 1]) - first);
 }
 }

@@ -4,17 +4,56 @@
 
 #include "granular/common/progress.h"
 #include "granular/contacts/find_ends.h"
-#include "granular/contacts/near_points.h"
 #include "granular/euler/grain_values.h"
 #include "granular/geometry/box.h"
+#include "granular/grid/euler_grid.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace granular
 {
+/// A box along the axes; empty if a lo is not below or at its hi.
+struct Extent
+{
+  Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  Vector3 hi = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+
+  bool empty() const noexcept { return !(lo[0] <= hi[0]); }
+  bool meets(const Extent& other) const noexcept;
+  void include(const Vector3& point) noexcept;
+  Extent grown(double by) const noexcept; ///< rounded outwards
+};
+
+/// Returns the extent of the finite ones among points x y z.
+Extent extent_of(std::span<const double> points) noexcept;
+
+/// Things by the bins of a part of space that they reach into.
+class Bins
+{
+public:
+  /// things: how far each reaches. edge: of a bin, above 0; larger if there would be too many.
+  Bins(const Extent& whole, double edge, std::span<const Extent> things);
+
+  /// Returns the things that may reach a point of the whole; none for other points.
+  std::span<const std::uint32_t> near(const Vector3& point) const noexcept;
+
+private:
+  CellRange range(const Extent& extent) const noexcept;
+
+  Extent whole_;
+  Vector3 per_edge_ = {};
+  CellRange all_;
+  std::vector<std::int64_t> starts_;
+  std::vector<std::uint32_t> things_;
+};
+
 /// A grain, or an image of it.
 struct NearGrain
 {

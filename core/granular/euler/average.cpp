@@ -137,6 +137,81 @@ std::int64_t WantedCells::place(
   return place >= 0 && number >= first && number < last ? place - first : -1;
 }
 
+void EulerAverages::make_room(std::int64_t count, bool tensors, const EulerFieldSet& wanted)
+{
+  const auto room = [&](bool asked, std::int64_t width)
+  { return asked ? static_cast<std::size_t>(width * count) : 0; };
+  cells.resize(count);
+  cells.normal_stress.resize(room(tensors, 3));
+  cells.shear_stress.resize(room(tensors, 3));
+  fields.density.resize(room(wanted.density, 1));
+  fields.momentum.resize(room(wanted.momentum, 3));
+  fields.temperature.resize(room(wanted.temperature, 1));
+}
+
+void EulerAverages::make_contact_room(std::int64_t count, bool stress, const EulerFieldSet& wanted)
+{
+  const auto room = static_cast<std::size_t>(count);
+  fields.contact_normal.resize(stress ? 3 * room : 0);
+  fields.contact_shear.resize(stress ? 3 * room : 0);
+  fields.coordination.resize(wanted.coordination ? room : 0);
+  fields.fabric.resize(wanted.fabric ? 6 * room : 0);
+}
+
+void EulerAverages::store_means(
+  std::size_t cell, const double* all, const Vector3& mean, double of_volume)
+{
+  const double share = all[0];
+  std::ranges::copy(mean, cells.velocities.data() + 3 * cell);
+  cells.radius[cell] = share > 0 ? all[5] / share : 0;
+  cells.volume_fraction[cell] = all[6] / of_volume;
+  if (!fields.density.empty())
+  {
+    fields.density[cell] = all[1] / of_volume;
+  }
+  for (std::size_t axis = 0; !fields.momentum.empty() && axis < 3; ++axis)
+  {
+    fields.momentum[3 * cell + axis] = all[2 + axis] / of_volume;
+  }
+}
+
+void EulerAverages::store_fluctuations(
+  std::size_t cell, const double* all, double mass, double of_volume)
+{
+  cells.pressure[cell] = (0 - (all[0] + all[1] + all[2])) / (3 * of_volume); // 0, not -0
+  for (std::size_t k = 0; !cells.normal_stress.empty() && k < 3; ++k)
+  {
+    cells.normal_stress[3 * cell + k] = all[k] / of_volume;
+    cells.shear_stress[3 * cell + k] = all[3 + k] / of_volume;
+  }
+  if (!fields.temperature.empty())
+  {
+    fields.temperature[cell] = mass > 0 ? all[6] / (3 * mass) : 0;
+  }
+}
+
+void EulerAverages::store_contacts(
+  std::size_t cell, const double* all, double share, double of_volume)
+{
+  for (std::size_t k = 0; !fields.contact_normal.empty() && k < 3; ++k)
+  {
+    fields.contact_normal[3 * cell + k] = all[k] / of_volume;
+    fields.contact_shear[3 * cell + k] = all[3 + k] / of_volume;
+  }
+  if (!fields.coordination.empty())
+  {
+    fields.coordination[cell] = share > 0 ? all[6] / share : 0;
+  }
+}
+
+void EulerAverages::store_fabric(std::size_t cell, const double* all, double contacts)
+{
+  for (std::size_t k = 0; !fields.fabric.empty() && k < 6; ++k)
+  {
+    fields.fabric[6 * cell + k] = contacts > 0 ? all[k] / contacts : 0;
+  }
+}
+
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
   Communicator& ranks, const Executor& executor, Notices& notices, Progress& progress)
 {

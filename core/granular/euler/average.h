@@ -69,6 +69,19 @@ struct EulerAverages
   std::int64_t outside =
     0; ///< particles that touch no cell; with Centre, particles whose centre is in none
   std::int64_t broken = 0; ///< particles that were left out: see GrainValues::load
+
+  /// Makes room for so many cells, and for what is wanted of particles.
+  void make_room(std::int64_t count, bool tensors, const EulerFieldSet& wanted);
+
+  /// Makes room for what is wanted of contacts. stress: they have forces.
+  void make_contact_room(std::int64_t count, bool stress, const EulerFieldSet& wanted);
+
+  // Stores what sums in a volume give, where there is room for it: over particles (share, mass, momentum, radius, volume),
+  // of fluctuation_terms, of the stress of contacts and the number of their ends, of products of their normals.
+  void store_means(std::size_t cell, const double* all, const Vector3& mean, double of_volume);
+  void store_fluctuations(std::size_t cell, const double* all, double mass, double of_volume);
+  void store_contacts(std::size_t cell, const double* all, double share, double of_volume);
+  void store_fabric(std::size_t cell, const double* all, double contacts);
 };
 
 /// Returns v - mean, or 0 if the difference may come from the rounding of the mean: its terms, sums and quotients are rounded
@@ -77,6 +90,29 @@ inline double deviation(double v, double mean) noexcept
 {
   const double difference = v - mean;
   return std::abs(difference) > 0x1p-49 * std::abs(mean) ? difference : 0;
+}
+
+/// Returns the mean velocity by the sums of masses and of the momentum, one after the other; 0 without a mass.
+inline Vector3 mean_velocity(const double* mass_and_momentum) noexcept
+{
+  const double mass = mass_and_momentum[0];
+  Vector3 mean = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    mean[axis] = mass > 0 ? mass_and_momentum[1 + axis] / mass : 0;
+  }
+  return mean;
+}
+
+/// Returns what a particle adds to the stress, xx yy zz xy xz yz, and its mass times the square of its velocity, about a mean.
+inline std::array<double, 7> fluctuation_terms(
+  double mass, const double* velocity, const Vector3& mean) noexcept
+{
+  const double x = deviation(velocity[0], mean[0]);
+  const double y = deviation(velocity[1], mean[1]);
+  const double z = deviation(velocity[2], mean[2]);
+  return { -mass * x * x, -mass * y * y, -mass * z * z, -mass * x * y, -mass * x * z, -mass * y * z,
+    mass * (x * x + y * y + z * z) };
 }
 
 /// Averages the grains of a frame over the cells of a grid. With the share w of a grain in a cell, its mass m, radius r,

@@ -129,14 +129,11 @@ void AveragePasses::sum_group(const Group& group)
       for (std::size_t n = 0; n < batch.size; ++n)
       {
         const std::size_t i = batch.grain[n];
-        const double* const v = grains.velocities + 3 * i;
         const auto& [mean, scale] = means[batch.cell[n]];
-        const double mass = grains.mass[i] * batch.share[n];
-        const double x = deviation(v[0], mean[0]);
-        const double y = deviation(v[1], mean[1]);
-        const double z = deviation(v[2], mean[2]);
-        batch.terms[n] = { -mass * x * x, -mass * y * y, -mass * z * z, -mass * x * y,
-          -mass * x * z, -mass * y * z, mass * (x * x + y * y + z * z), 0 };
+        const auto terms =
+          fluctuation_terms(grains.mass[i] * batch.share[n], grains.velocities + 3 * i, mean);
+        std::ranges::copy(terms, batch.terms[n].begin());
+        batch.terms[n].back() = 0;
         for (std::size_t k = 0; grains.stresses && k < 6; ++k)
         {
           batch.terms[n][k] += grains.stresses[6 * i + k] * batch.share[n];
@@ -274,7 +271,6 @@ void AveragePasses::finish_means(const Group& group)
 {
   means_.resize(static_cast<std::size_t>(group.blocks() * blocks_.blocks().largest()));
   masses_.resize(request_.fields.temperature ? means_.size() : 0);
-  EulerCells& cells = result_.cells;
   blocks_.each_cell(group, sums_,
     [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
       const SumScale::Terms& sums)
@@ -286,26 +282,13 @@ void AveragePasses::finish_means(const Group& group)
       {
         masses_[cell] = sums[Mass];
       }
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        mean[axis] = sums[Mass] > 0 ? sums[MomentumX + axis] / sums[Mass] : 0;
-      }
+      mean = mean_velocity(&sums[Mass]);
       if (place < 0)
       {
         return;
       }
       const auto to = static_cast<std::size_t>(place);
-      std::ranges::copy(mean, cells.velocities.begin() + 3 * place);
-      cells.radius[to] = sums[Share] > 0 ? sums[Radius] / sums[Share] : 0;
-      cells.volume_fraction[to] = sums[Volume] / volume;
-      if (request_.fields.density)
-      {
-        result_.fields.density[to] = sums[Mass] / volume;
-      }
-      for (std::size_t axis = 0; request_.fields.momentum && axis < 3; ++axis)
-      {
-        result_.fields.momentum[3 * to + axis] = sums[MomentumX + axis] / volume;
-      }
+      result_.store_means(to, sums.data(), mean, volume);
       if (request_.keep_sums)
       {
         result_.sums.share[to] = sums[Share];
@@ -328,7 +311,6 @@ double AveragePasses::stress_scale(const SumScale::Terms& sums) const noexcept
 
 void AveragePasses::finish_stress(const Group& group)
 {
-  EulerCells& cells = result_.cells;
   blocks_.each_cell(group, stresses_,
     [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume, SumScale::Terms sums)
     {
@@ -341,17 +323,8 @@ void AveragePasses::finish_stress(const Group& group)
       {
         sum /= means_[cell].scale;
       }
-      const auto to = static_cast<std::size_t>(place);
-      if (request_.fields.temperature)
-      {
-        result_.fields.temperature[to] = masses_[cell] > 0 ? sums[6] / (3 * masses_[cell]) : 0;
-      }
-      cells.pressure[to] = (0 - (sums[0] + sums[1] + sums[2])) / (3 * volume); // 0, not -0
-      for (std::size_t k = 0; tensors_ && k < 3; ++k)
-      {
-        cells.normal_stress[3 * to + k] = sums[k] / volume;
-        cells.shear_stress[3 * to + k] = sums[3 + k] / volume;
-      }
+      result_.store_fluctuations(
+        static_cast<std::size_t>(place), sums.data(), masses_.empty() ? 0 : masses_[cell], volume);
     });
 }
 }

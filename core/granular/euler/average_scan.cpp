@@ -146,16 +146,8 @@ void AveragePasses::make_cells()
   EulerCells& cells = result_.cells;
   EulerSums& sums = result_.sums;
   const std::int64_t wanted = request_.wanted.count(grid);
-  const auto stresses = tensors_ ? static_cast<std::size_t>(3 * wanted) : 0;
   const auto kept = request_.keep_sums ? static_cast<std::size_t>(wanted) : 0;
-  cells.resize(wanted);
-  cells.normal_stress.resize(stresses);
-  cells.shear_stress.resize(stresses);
-  const auto room = [&](bool asked, std::int64_t width)
-  { return asked ? static_cast<std::size_t>(width * wanted) : 0; };
-  result_.fields.density.resize(room(request_.fields.density, 1));
-  result_.fields.momentum.resize(room(request_.fields.momentum, 3));
-  result_.fields.temperature.resize(room(request_.fields.temperature, 1));
+  result_.make_room(wanted, tensors_, request_.fields);
   sums.share.resize(kept);
   sums.mass.resize(kept);
   sums.momentum.resize(3 * kept);
