@@ -5,6 +5,8 @@
 
 #include "../support/byte_source_packing.h"
 
+#include "granular/decomposition/vtu_grids.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -96,7 +98,8 @@ TEST(DecompositionDamage, CutBeforeTheLastTag)
 {
   for (const std::string& text : good_files())
   {
-    for (std::size_t bytes = 0; granular::is_vtu(text) && bytes < text.size(); ++bytes)
+    for (std::size_t bytes = 0; granular::look_at(text).unstructured && bytes < text.size();
+         ++bytes)
     {
       GridFile file(text.substr(0, bytes) + "</VTKFile>");
       read_all(file);

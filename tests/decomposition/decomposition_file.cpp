@@ -4,6 +4,8 @@
 
 #include "../support/counting_source.h"
 
+#include "granular/decomposition/vtu_grids.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -97,7 +99,7 @@ TEST(DecompositionFile, XmlIsAFrameOfItsOwn)
   for (const std::string name : { "inl.vtu", "inl_appended.vtu" })
   {
     const std::string text = data_file("good/decomposition/" + name);
-    EXPECT_TRUE(granular::is_vtu(text.substr(0, 200)));
+    EXPECT_TRUE(granular::look_at(text.substr(0, 200)).unstructured);
     GridFile file(text);
     ASSERT_EQ(file.frames(), 1u);
     EXPECT_EQ(file.entry().rows, 3);
@@ -112,10 +114,11 @@ TEST(DecompositionFile, XmlIsAFrameOfItsOwn)
     EXPECT_EQ(cut.frames(), 1u);
     EXPECT_EQ(cut.index().resume_offset, static_cast<std::int64_t>(text.size() + 2));
   }
-  EXPECT_FALSE(granular::is_vtu("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n"));
-  EXPECT_FALSE(granular::is_vtu("<html><VTKFile type=\"UnstructuredGrid\">"));
-  EXPECT_FALSE(granular::is_vtu(liggghts_header));
-  EXPECT_FALSE(granular::is_vtu(""));
+  EXPECT_FALSE(
+    granular::look_at("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n").unstructured);
+  EXPECT_FALSE(granular::look_at("<html><VTKFile type=\"UnstructuredGrid\">").unstructured);
+  EXPECT_FALSE(granular::look_at(liggghts_header).unstructured);
+  EXPECT_FALSE(granular::look_at("").unstructured);
 }
 
 TEST(DecompositionFile, SeveralGridsInOne)

@@ -19,7 +19,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t rows_per_chunk = 65536;
+constexpr std::size_t rows_per_chunk = 65536;
 constexpr std::size_t bins_per_slab = 8;
 
 /// Each worker has counts of its own, up to 1 GiB of them together: beyond that there are fewer workers.
@@ -200,20 +200,18 @@ ParticleCounts count_all(const FrameView& frame, std::size_t places, const Find&
     throw Error("expected points to count, got none");
   }
   const AbsolutePositions positions(frame, true);
-  const auto chunks = static_cast<std::size_t>((frame.rows + rows_per_chunk - 1) / rows_per_chunk);
   const std::size_t most_workers = std::max<std::size_t>(most_counts / (places + 1), 1);
   const Executor own(
     static_cast<int>(std::min(static_cast<std::size_t>(executor.threads()), most_workers)));
-  std::vector<std::vector<std::int64_t>> counts(own.workers(chunks));
+  std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(own.threads()));
   counts[0].resize(places + 1);
-  own.parallel_for(
-    chunks,
-    [&](std::size_t chunk, std::size_t worker)
+  own.for_each_stretch(
+    static_cast<std::size_t>(frame.rows), rows_per_chunk,
+    [&](std::size_t first, std::size_t count, std::size_t worker)
     {
       counts[worker].resize(places + 1);
-      const std::int64_t first = static_cast<std::int64_t>(chunk) * rows_per_chunk;
-      count_rows(frame, positions, first, std::min(first + rows_per_chunk, frame.rows), find,
-        counts[worker].data());
+      count_rows(frame, positions, static_cast<std::int64_t>(first),
+        static_cast<std::int64_t>(first + count), find, counts[worker].data());
     },
     progress);
   ParticleCounts sum{ std::move(counts[0]), 0 };

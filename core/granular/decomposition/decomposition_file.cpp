@@ -6,7 +6,6 @@
 #include "granular/decomposition/decomposition_grid.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/decomposition/vtu_grids.h"
-#include "granular/decomposition/vtu_head.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/named_steps.h"
 
@@ -70,91 +69,67 @@ constexpr std::size_t most_notices = 100;
 /// Headers may be as short as one of their lines: progress is reported after so many.
 constexpr int report_interval = 1000;
 
-/// Finds the grids of a legacy file.
-class GridIndexer
-{
-public:
-  GridIndexer(const ByteSource& source, FileIndex& index, Progress& progress)
-    : source_(source)
-    , index_(index)
-    , progress_(progress)
-    , file_(source, first_place(index), LegacyVtk::no_end, progress)
-  {
-  }
-
-  void run()
-  {
-    for (int headers = 1; this->next_grid(); ++headers)
-    {
-      if (headers % report_interval == 0)
-      {
-        progress_.step(source_.fraction(file_.place().offset));
-      }
-    }
-    if (untold_ > 0)
-    {
-      index_.notices.push_back({ { source_.path() },
-        "and " + std::to_string(untold_) +
-          (untold_ == 1 ? " more frame is left out" : " more frames are left out") });
-    }
-  }
-
-private:
-  static VtkPlace first_place(FileIndex& index);
-  bool next_grid();
-  void add(const DecompositionGrid& grid);
-  void leave_out(const Error& error);
-
-  const ByteSource& source_;
-  FileIndex& index_;
-  Progress& progress_;
-  LegacyVtk file_;
-  std::int64_t untold_ = 0; ///< frames that are left out
-};
-
 /// The last frame is indexed again: data of its cells may have come.
-VtkPlace GridIndexer::first_place(FileIndex& index)
+VtkPlace first_place(FileIndex& index)
 {
-  VtkPlace place{ index.resume_offset, index.resume_line };
   if (!index.frames.empty())
   {
-    place = { index.frames.back().offset, index.frames.back().line };
-    index.resume_offset = place.offset;
-    index.resume_line = std::max(place.line, std::int64_t{ 1 });
+    index.resume_offset = index.frames.back().offset;
+    index.resume_line = std::max(index.frames.back().line, std::int64_t{ 1 });
     index.frames.pop_back();
   }
-  return place;
+  return { index.resume_offset, index.resume_line };
 }
 
-/// False at the end.
-bool GridIndexer::next_grid()
+void add(const DecompositionGrid& grid, const VtkPlace& end, FileIndex& index)
 {
-  if (!file_.at_header() && file_.at_end())
+  FrameEntry entry;
+  entry.timestep = static_cast<std::int64_t>(index.frames.size());
+  entry.rows = grid.cells;
+  entry.offset = grid.header.place.offset;
+  entry.end = end.offset;
+  entry.line = grid.header.binary ? 0 : grid.header.place.line;
+  entry.shape = shape_of(grid);
+  entry.kind = index.kinds->share(FrameKind{});
+  index.frames.push_back(std::move(entry));
+  index.resume_offset = end.offset;
+  index.resume_line = std::max(end.line, std::int64_t{ 1 }); // 0 in binary files
+}
+
+/// Adds the next grid of a legacy file. Returns false at the end.
+bool add_grid(LegacyVtk& file, FileIndex& index, std::int64_t& untold)
+{
+  if (!file.at_header() && file.at_end())
   {
     return false;
   }
-  const VtkPlace start = file_.place();
+  const VtkPlace start = file.place();
   const auto missed = [&](const Error& error)
   {
-    const bool ended = file_.ended();
-    const bool more = file_.find_header({ start.offset + 1, start.line });
+    const bool ended = file.ended();
+    const bool more = file.find_header({ start.offset + 1, start.line });
+    set_defect(index, { error.where(), error.text() });
     if (ended && !more) // it may still be growing
     {
-      set_defect(index_, { error.where(), error.text() });
+      return false;
+    }
+    if (index.notices.size() >= most_notices)
+    {
+      ++untold;
     }
     else
     {
-      this->leave_out(error);
+      index.notices.push_back({ error.where(), error.text() + "; the frame is left out" });
     }
     return more;
   };
   try
   {
-    const DecompositionGrid grid = read_grid(file_, false);
-    this->add(grid);
-    if (!grid.rectilinear && file_.at_header())
+    const DecompositionGrid grid = read_grid(file, false);
+    add(grid, file.place(), index);
+    if (!grid.rectilinear && file.at_header())
     {
-      index_.notices.push_back({ file_.where(file_.place()),
+      index.notices.push_back({ file.where(file.place()),
         "expected the end of the file behind an unstructured grid, got another header; what "
         "follows is left out" });
     }
@@ -170,30 +145,23 @@ bool GridIndexer::next_grid()
   }
 }
 
-void GridIndexer::add(const DecompositionGrid& grid)
+void index_legacy(const ByteSource& source, FileIndex& index, Progress& progress)
 {
-  FrameEntry entry;
-  entry.timestep = static_cast<std::int64_t>(index_.frames.size());
-  entry.rows = grid.cells;
-  entry.offset = grid.header.place.offset;
-  entry.end = file_.place().offset;
-  entry.line = grid.header.binary ? 0 : grid.header.place.line;
-  entry.shape = shape_of(grid);
-  entry.kind = index_.kinds->share(FrameKind{});
-  index_.frames.push_back(std::move(entry));
-  index_.resume_offset = file_.place().offset;
-  index_.resume_line = std::max(file_.place().line, std::int64_t{ 1 }); // 0 in binary files
-}
-
-void GridIndexer::leave_out(const Error& error)
-{
-  set_defect(index_, { error.where(), error.text() });
-  if (index_.notices.size() >= most_notices)
+  LegacyVtk file(source, first_place(index), LegacyVtk::no_end, progress);
+  std::int64_t untold = 0; // frames that are left out
+  for (int headers = 1; add_grid(file, index, untold); ++headers)
   {
-    ++untold_;
-    return;
+    if (headers % report_interval == 0)
+    {
+      progress.step(source.fraction(file.place().offset));
+    }
   }
-  index_.notices.push_back({ error.where(), error.text() + "; the frame is left out" });
+  if (untold > 0)
+  {
+    index.notices.push_back({ { source.path() },
+      "and " + std::to_string(untold) +
+        (untold == 1 ? " more frame is left out" : " more frames are left out") });
+  }
 }
 
 void index_decomposition(
@@ -203,13 +171,13 @@ void index_decomposition(
   {
     index.kinds = std::make_shared<FrameKinds>();
   }
-  if (is_vtu(read_head(source)))
+  if (look_at(read_head(source)).unstructured)
   {
     index_vtu(source, index);
   }
   else
   {
-    GridIndexer(source, index, progress).run();
+    index_legacy(source, index, progress);
   }
 }
 
@@ -298,11 +266,6 @@ const FileFormat& decomposition_format() noexcept
     .name = "a decomposition file", .index = &index_decomposition, .complete = &name_steps
   };
   return format;
-}
-
-bool is_vtu(std::string_view first_bytes)
-{
-  return look_at(first_bytes).unstructured;
 }
 
 bool is_decomposition_file(const std::string& path) noexcept

@@ -11,7 +11,6 @@
 #include "granular/frames/run_index.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace granular
@@ -33,9 +32,6 @@ const FileFormat& decomposition_format() noexcept;
 /// unreadable files.
 bool is_decomposition_file(const std::string& path) noexcept;
 
-/// Returns true if the first bytes of a file are those of XML files of VTK.
-bool is_vtu(std::string_view first_bytes);
-
 /// Decodes a frame. In a rectilinear grid the number of coordinates counts, not DIMENSIONS, which PFM writes for the whole
 /// grid into the files of single ranks. Voxels in the order of LIGGGHTS-INL, with x and z exchanged, are corrected with a
 /// notice; hexahedra along the axes are accepted. Ranks come from the cell array `proc` (or `procID`), counts from `nlocal`.
@@ -48,7 +44,7 @@ Decomposition read_decomposition(
 Decomposition read_decomposition_pieces(
   const std::vector<FramePiece>& pieces, Notices& notices, Progress& progress);
 
-/// Adds one notice that cells were corrected.
+/// Returns the notice that cells were corrected.
 Notice note_reflected(const Where& where, std::int64_t cells);
 }
 #endif

@@ -152,68 +152,46 @@ void add_arrays(std::string& text, const Decomposition& decomposition)
   }
 }
 
-/// printf's %f and a blank. Gives what can be read back.
-double add_fixed(std::string& text, double value)
+/// Tells the loss of six decimals in the cuts of an axis.
+void tell_rounding(const std::vector<double>& cuts, char axis, Notices& notices)
 {
-  std::array<char, most_fixed_chars> digits;
-  text.append(digits.data(), print_fixed(digits.data(), value));
-  text += ' ';
-  return as_fixed(value);
+  double thinnest = std::numeric_limits<double>::infinity(); // of the slabs that are not flat
+  double length = 0;
+  double moved = 0;       // at most
+  std::size_t joined = 0; // cuts that differ from the one before, and no longer do
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+  {
+    const double rounded = as_fixed(cuts[i]);
+    moved = std::max(moved, std::abs(rounded - cuts[i]));
+    if (i > 0 && cuts[i] != cuts[i - 1])
+    {
+      thinnest = std::min(thinnest, cuts[i] - cuts[i - 1]);
+      length += cuts[i] - cuts[i - 1];
+      joined += rounded == as_fixed(cuts[i - 1]) ? 1U : 0U;
+    }
+  }
+  constexpr double much = 1e-3; // of the thinnest slab
+  if (joined == 0 && moved <= much * thinnest)
+  {
+    return;
+  }
+  if (joined > 0 && joined + 1 == cuts.size())
+  {
+    throw Error("expected a box that six decimals, which is what LIGGGHTS-PUBLIC writes, do not "
+                "make flat, got one with a length of " +
+      to_text(length) + " along " + std::string(1, axis) + "; the dialect INL keeps all digits");
+  }
+  std::string text = "six decimals, which is what LIGGGHTS-PUBLIC writes, are few along " +
+    std::string(1, axis) + ": coordinates change by up to " + to_text(moved) +
+    ", the thinnest slab has " + to_text(thinnest);
+  if (joined > 0)
+  {
+    text += "; " + std::to_string(joined) + " of " + std::to_string(cuts.size() - 1) +
+      (joined == 1 ? " slabs becomes flat" : " slabs become flat");
+  }
+  notices.push_back(
+    { {}, text + "; the dialect INL keeps all digits", std::string("rounding along ") + axis });
 }
-
-/// The loss of six decimals in the cuts of an axis.
-class Rounding
-{
-public:
-  /// The next cut, and what became of it.
-  void add(double cut, double rounded)
-  {
-    if (count_ > 0 && cut != cut_)
-    {
-      thinnest_ = std::min(thinnest_, cut - cut_);
-      length_ += cut - cut_;
-      joined_ += rounded == rounded_ ? 1 : 0;
-    }
-    moved_ = std::max(moved_, std::abs(rounded - cut));
-    cut_ = cut;
-    rounded_ = rounded;
-    ++count_;
-  }
-
-  void tell(char axis, Notices& notices) const
-  {
-    constexpr double much = 1e-3; // of the thinnest slab
-    if (joined_ == 0 && moved_ <= much * thinnest_)
-    {
-      return;
-    }
-    if (joined_ > 0 && joined_ + 1 == count_)
-    {
-      throw Error("expected a box that six decimals, which is what LIGGGHTS-PUBLIC writes, do not "
-                  "make flat, got one with a length of " +
-        to_text(length_) + " along " + std::string(1, axis) + "; the dialect INL keeps all digits");
-    }
-    std::string text = "six decimals, which is what LIGGGHTS-PUBLIC writes, are few along " +
-      std::string(1, axis) + ": coordinates change by up to " + to_text(moved_) +
-      ", the thinnest slab has " + to_text(thinnest_);
-    if (joined_ > 0)
-    {
-      text += "; " + std::to_string(joined_) + " of " + std::to_string(count_ - 1) +
-        (joined_ == 1 ? " slabs becomes flat" : " slabs become flat");
-    }
-    notices.push_back(
-      { {}, text + "; the dialect INL keeps all digits", std::string("rounding along ") + axis });
-  }
-
-private:
-  double cut_ = 0;
-  double rounded_ = 0;
-  double length_ = 0;
-  double thinnest_ = std::numeric_limits<double>::infinity(); ///< of the slabs that are not flat
-  double moved_ = 0;                                          ///< at most
-  std::int64_t joined_ = 0; ///< cuts that differ from the one before, and no longer do
-  std::int64_t count_ = 0;
-};
 }
 
 std::string encode_voxels(const Decomposition& decomposition, Progress& progress)
@@ -304,17 +282,16 @@ std::string encode_grid(const Decomposition& decomposition, Notices& notices)
   std::string text = "# vtk DataFile Version 2.0\nLIGGGHTS mesh/gran/VTK export\nASCII\n"
                      "DATASET RECTILINEAR_GRID\n";
   add_line(text, "DIMENSIONS ", cuts[0].size(), " ", cuts[1].size(), " ", cuts[2].size());
-  constexpr char axes[] = { 'X', 'Y', 'Z' };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    text += axes[axis];
+    text += "XYZ"[axis];
     add_line(text, "_COORDINATES ", cuts[axis].size(), " float");
-    Rounding rounding;
     for (const double cut : cuts[axis])
     {
-      rounding.add(cut, add_fixed(text, cut));
+      std::array<char, most_fixed_chars> digits;
+      text.append(digits.data(), print_fixed(digits.data(), cut)) += ' ';
     }
-    rounding.tell(static_cast<char>(axes[axis] - 'X' + 'x'), notices);
+    tell_rounding(cuts[axis], "xyz"[axis], notices);
     text += '\n';
   }
   return text;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/process_grid.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <numeric>
-#include <unordered_map>
+#include <map>
 
 namespace granular
 {
@@ -21,15 +18,6 @@ struct Slab
   auto operator<=>(const Slab&) const = default;
 };
 
-struct SlabHash
-{
-  std::size_t operator()(const Slab& slab) const noexcept
-  {
-    const std::hash<double> hash;
-    return hash(slab.lo) * 31 + hash(slab.hi);
-  }
-};
-
 /// The slabs of one axis that subdomains lie in, each once.
 class Slabs
 {
@@ -39,43 +27,34 @@ public:
   /// Its number, in the order in which they come.
   std::size_t number(const Slab& slab)
   {
-    if (slabs_.empty() || slabs_[last_] != slab)
+    if (slabs_.empty() || last_->first != slab)
     {
-      last_ = numbers_.try_emplace(slab, slabs_.size()).first->second;
-      if (last_ == slabs_.size())
-      {
-        slabs_.push_back(slab);
-      }
+      last_ = slabs_.try_emplace(slab, slabs_.size()).first;
     }
-    return last_;
+    return last_->second;
   }
 
   /// The cuts between them, or nothing where one does not begin where the one before ends; places gets which in
   /// order of position each number is.
   std::vector<double> cuts(std::vector<std::int64_t>& places) const
   {
-    std::vector<std::size_t> order(slabs_.size());
-    std::iota(order.begin(), order.end(), std::size_t{ 0 });
-    std::ranges::sort(order, {}, [this](std::size_t number) { return slabs_[number]; });
-    places.resize(order.size());
-    std::vector<double> cuts = { slabs_[order.front()].lo };
-    for (std::size_t place = 0; place < order.size(); ++place)
+    places.resize(slabs_.size());
+    std::vector<double> cuts = { slabs_.begin()->first.lo };
+    for (const auto& [slab, number] : slabs_)
     {
-      const Slab& slab = slabs_[order[place]];
       if (slab.lo != cuts.back())
       {
         return {};
       }
+      places[number] = static_cast<std::int64_t>(cuts.size()) - 1;
       cuts.push_back(slab.hi);
-      places[order[place]] = static_cast<std::int64_t>(place);
     }
     return cuts;
   }
 
 private:
-  std::vector<Slab> slabs_;
-  std::unordered_map<Slab, std::size_t, SlabHash> numbers_;
-  std::size_t last_ = 0;
+  std::map<Slab, std::size_t> slabs_; ///< their numbers
+  std::map<Slab, std::size_t>::const_iterator last_;
 };
 
 /// The slabs of a subdomain along each axis, by number: there are fewer than subdomains.

@@ -18,7 +18,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t rows_per_chunk = 65536;
+constexpr std::size_t rows_per_chunk = 65536;
 constexpr std::size_t most_rows = AbsolutePositions::most_rows;
 constexpr double largest_rank = 2147483647;
 
@@ -43,106 +43,61 @@ void extend(Subdomain& bounds, const double* lo, const double* hi, std::int64_t 
 class BoundsByRank
 {
 public:
-  Subdomain& of(int rank)
-  {
-    if (bounds_.empty() || bounds_[last_].rank != rank)
-    {
-      last_ = numbers_.try_emplace(rank, bounds_.size()).first->second;
-      if (last_ == bounds_.size())
-      {
-        bounds_.push_back(nothing_of(rank));
-      }
-    }
-    return bounds_[last_];
-  }
-
   void add(const Subdomain& other)
   {
-    extend(this->of(other.rank), other.lo.data(), other.hi.data(), other.particles);
+    Subdomain& own = bounds_.try_emplace(other.rank, nothing_of(other.rank)).first->second;
+    extend(own, other.lo.data(), other.hi.data(), other.particles);
   }
-
-  void add(std::span<const Subdomain> others)
-  {
-    std::ranges::for_each(others, [this](const Subdomain& other) { this->add(other); });
-  }
-
-  const std::vector<Subdomain>& all() const noexcept { return bounds_; }
 
   /// By rank. Which of -0 and 0 came first must not show: all are 0.
-  std::vector<Subdomain> sorted() &&
+  std::vector<Subdomain> all() const
   {
-    std::ranges::sort(bounds_, {}, &Subdomain::rank);
-    for (Subdomain& bounds : bounds_)
+    std::vector<Subdomain> all;
+    for (const auto& [rank, bounds] : bounds_)
     {
+      Subdomain& each = all.emplace_back(bounds);
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        bounds.lo[axis] += 0.0;
-        bounds.hi[axis] += 0.0;
+        each.lo[axis] += 0.0;
+        each.hi[axis] += 0.0;
       }
     }
-    return std::move(bounds_);
+    std::ranges::sort(all, {}, &Subdomain::rank);
+    return all;
   }
 
 private:
-  std::vector<Subdomain> bounds_;
-  std::unordered_map<int, std::size_t> numbers_;
-  std::size_t last_ = 0;
+  std::unordered_map<int, Subdomain> bounds_;
 };
 
-/// The processes of rows, as doubles: all that are right are exact.
-class Processes
+int rank_of(double process, const ArrayView& array)
 {
-public:
-  /// null: all rows are of process 0
-  explicit Processes(const ArrayView* array)
-    : array_(array)
+  if (!(process >= 0 && process <= largest_rank && process == std::floor(process)))
   {
-    if (array && (array->size() != 1 || array->type == ValueType::Text))
-    {
-      throw Error("expected one whole number a row, got " +
-          (array->type == ValueType::Text ? "texts" : std::to_string(array->size()) + " values"),
-        { .column = array->name });
-    }
+    throw Error(
+      "expected whole numbers of processes, from 0 to 2147483647, got " + to_text(process),
+      { .column = array.name });
   }
+  return static_cast<int>(process);
+}
 
-  void load(std::int64_t first, std::size_t count, double* to) const
-  {
-    if (!array_)
-    {
-      std::fill_n(to, count, 0.0);
-      return;
-    }
-    std::array<std::int64_t, most_rows> rows;
-    std::iota(rows.begin(), rows.end(), first);
-    load_numbers(component_of(*array_, 0), std::span(rows).first(count), to);
-  }
-
-  int rank_of(double process) const
-  {
-    if (!(process >= 0 && process <= largest_rank && process == std::floor(process)))
-    {
-      throw Error(
-        "expected whole numbers of processes, from 0 to 2147483647, got " + to_text(process),
-        { .column = array_->name });
-    }
-    return static_cast<int>(process);
-  }
-
-private:
-  const ArrayView* array_;
-};
-
+/// processes: of the rows; null: all are of process 0.
 void add_rows(const FrameView& frame, const AbsolutePositions& positions,
-  const Processes& processes, std::int64_t first, std::int64_t last, BoundsByRank& bounds,
+  const ArrayView* processes, std::int64_t first, std::int64_t last, BoundsByRank& bounds,
   std::int64_t& outside)
 {
   constexpr auto most = static_cast<std::int64_t>(most_rows);
   std::array<double, 3 * most_rows> buffer;
-  std::array<double, most_rows> numbers;
+  std::array<double, most_rows> numbers = {}; // doubles: all that are right are exact
+  std::array<std::int64_t, most_rows> rows;
   for (; first < last; first += most)
   {
     const auto count = static_cast<std::size_t>(std::min(most, last - first));
-    processes.load(first, count, numbers.data());
+    if (processes)
+    {
+      std::iota(rows.begin(), rows.end(), first);
+      load_numbers(component_of(*processes, 0), std::span(rows).first(count), numbers.data());
+    }
     const double* x = positions.load(first, count, buffer.data());
     Subdomain run = nothing_of(0); // rows of one process
     double process = 0;
@@ -161,7 +116,7 @@ void add_rows(const FrameView& frame, const AbsolutePositions& positions,
       }
       if (numbers[i] != process)
       {
-        const int rank = processes.rank_of(numbers[i]);
+        const int rank = rank_of(numbers[i], *processes);
         end_run();
         run = nothing_of(rank);
         process = numbers[i];
@@ -187,25 +142,28 @@ ParticleBounds find_bounds(
     throw Error("expected points to find bounds of, got none");
   }
   const AbsolutePositions positions(frame, false);
-  const Processes processes(process);
-  const auto chunks = static_cast<std::size_t>((frame.rows + rows_per_chunk - 1) / rows_per_chunk);
-  std::vector<BoundsByRank> bounds(executor.workers(chunks));
+  if (process && (process->size() != 1 || process->type == ValueType::Text))
+  {
+    throw Error("expected one whole number a row, got " +
+        (process->type == ValueType::Text ? "texts" : std::to_string(process->size()) + " values"),
+      { .column = process->name });
+  }
+  std::vector<BoundsByRank> bounds(static_cast<std::size_t>(executor.threads()));
   std::vector<std::int64_t> outside(bounds.size(), 0);
-  executor.parallel_for(
-    chunks,
-    [&](std::size_t chunk, std::size_t worker)
+  executor.for_each_stretch(
+    static_cast<std::size_t>(frame.rows), rows_per_chunk,
+    [&](std::size_t first, std::size_t count, std::size_t worker)
     {
-      const std::int64_t first = static_cast<std::int64_t>(chunk) * rows_per_chunk;
-      add_rows(frame, positions, processes, first, std::min(first + rows_per_chunk, frame.rows),
-        bounds[worker], outside[worker]);
+      add_rows(frame, positions, process, static_cast<std::int64_t>(first),
+        static_cast<std::int64_t>(first + count), bounds[worker], outside[worker]);
     },
     progress);
   for (std::size_t worker = 1; worker < bounds.size(); ++worker)
   {
-    bounds[0].add(bounds[worker].all());
+    std::ranges::for_each(
+      bounds[worker].all(), [&](const Subdomain& each) { bounds[0].add(each); });
   }
-  return { std::move(bounds[0]).sorted(),
-    std::accumulate(outside.begin(), outside.end(), std::int64_t{ 0 }) };
+  return { bounds[0].all(), std::accumulate(outside.begin(), outside.end(), std::int64_t{ 0 }) };
 }
 }
 
@@ -227,13 +185,13 @@ std::vector<Subdomain> join_by_process(std::span<const Subdomain> own, Communica
     [&]
     {
       BoundsByRank joined; // one a process is sent
-      joined.add(own);
+      std::ranges::for_each(own, [&](const Subdomain& each) { joined.add(each); });
       BoundsByRank all;
       for (const std::vector<Subdomain>& subdomains : gather(ranks, joined.all()))
       {
-        all.add(subdomains);
+        std::ranges::for_each(subdomains, [&](const Subdomain& each) { all.add(each); });
       }
-      return std::move(all).sorted();
+      return all.all();
     });
 }
 }

@@ -4,10 +4,8 @@
 #include "granular/decomposition/decomposition_grid.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/decomposition/vtu_grids.h"
-#include "granular/decomposition/vtu_head.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace granular
 {
@@ -109,7 +107,7 @@ Decomposition read_decomposition(
   const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
 {
   const bool xml = entry.offset == 0 &&
-    is_vtu(read_up_to(source, std::min(entry.end, std::int64_t{ vtu_head_bytes })));
+    look_at(read_up_to(source, std::min(entry.end, std::int64_t{ vtu_head_bytes }))).unstructured;
   const Where where = { source.path(), entry.line, entry.line > 0 ? -1 : entry.offset };
   std::int64_t reflected = 0;
   Decomposition decomposition = (xml ? read_vtu : read_legacy)(source, entry, reflected, progress);
@@ -128,24 +126,10 @@ Decomposition read_decomposition_pieces(
   {
     parts.push_back(read_decomposition(*open_indexed(piece.file), piece.entry, notices, progress));
   }
-  const bool numbered =
-    parts.size() > 1 && !parts.front().has_ranks && parts.front().subdomains.size() == 1;
-  Decomposition all = std::move(parts.front());
-  for (std::size_t i = 1; i < parts.size(); ++i)
-  {
-    all.has_particles = all.has_particles && parts[i].has_particles;
-    all.has_ranks = all.has_ranks && parts[i].has_ranks;
-    all.subdomains.insert(
-      all.subdomains.end(), parts[i].subdomains.begin(), parts[i].subdomains.end());
-  }
-  if (numbered && all.subdomains.size() == pieces.size())
-  {
-    all.has_ranks = true;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-    {
-      all.subdomains[i].rank = static_cast<int>(i);
-    }
-  }
+  Decomposition all = join(parts);
+  all.has_ranks = all.has_ranks ||
+    (parts.size() > 1 && !parts.front().has_ranks && parts.front().subdomains.size() == 1 &&
+      all.subdomains.size() == pieces.size());
   return all;
 }
 

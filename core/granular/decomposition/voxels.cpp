@@ -16,21 +16,6 @@ namespace
 constexpr std::size_t corners = corners_of_voxel;
 constexpr std::size_t subdomains_a_chunk = 16384;
 
-/// Calls task(begin, end) for parts of [0, count).
-template <class Task>
-void for_parts(const Executor& executor, std::size_t count, Progress& progress, const Task& task)
-{
-  const std::size_t chunks = (count + subdomains_a_chunk - 1) / subdomains_a_chunk;
-  executor.parallel_for(
-    chunks,
-    [&](std::size_t chunk, std::size_t)
-    {
-      const std::size_t begin = chunk * subdomains_a_chunk;
-      task(begin, std::min(begin + subdomains_a_chunk, count));
-    },
-    progress);
-}
-
 /// The corners of a box in an order of cells: of each corner which bound it has along x (1), y (2) and z (4).
 struct KnownOrder
 {
@@ -60,10 +45,11 @@ Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
   voxels.number_of_points = static_cast<std::int64_t>(all);
   double* const points = static_cast<double*>(voxels.points.data());
   auto* const connectivity = static_cast<std::int64_t*>(voxels.connectivity.data());
-  for_parts(executor, subdomains.size(), progress,
-    [&](std::size_t begin, std::size_t end)
+  executor.for_each_stretch(
+    subdomains.size(), subdomains_a_chunk,
+    [&](std::size_t begin, std::size_t count, std::size_t)
     {
-      for (std::size_t p = begin; p < end; ++p)
+      for (std::size_t p = begin; p < begin + count; ++p)
       {
         const Vector3& lo = subdomains[p].lo;
         const Vector3& hi = subdomains[p].hi;
@@ -80,7 +66,8 @@ Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
           cell[i] = static_cast<std::int64_t>(corners * p) + voxel_corners[i];
         }
       }
-    });
+    },
+    progress);
   return voxels;
 }
 
