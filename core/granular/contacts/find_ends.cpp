@@ -121,16 +121,6 @@ bool check_forces(std::span<const ContactKinds> kinds, std::span<const std::int6
   return forces.value_or(true);
 }
 
-Ids find_ids(const FrameView& particles, const Executor& executor, Progress& progress)
-{
-  const ArrayView* const array = particles.find("id");
-  if (!array && particles.rows > 0)
-  {
-    throw Error("expected an array 'id' of the particles, got none");
-  }
-  return array ? Ids(*array, particles.rows, executor, progress) : Ids();
-}
-
 /// Each id of the rows once.
 std::vector<std::int64_t> list_ids(std::span<const ContactRows> inputs)
 {
@@ -183,7 +173,7 @@ FoundEnds::FoundEnds(const FrameView& particles, std::span<const ContactRows> in
   const Needs needs = find_needs(kinds, counts, options, particles.has_box);
   PartialProgress parts(progress);
   parts.set_part(0, 0.3);
-  const Ids ids = find_ids(particles, executor, parts);
+  const Ids ids = load_ids(particles, "particles", executor, parts);
   if (needs.radii || needs.must_radii)
   {
     radii_ = load_radii(particles, radius);

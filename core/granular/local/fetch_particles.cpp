@@ -226,6 +226,17 @@ catch (const Error& error)
   throw Error(error.text(), { {}, 0, -1, array.name });
 }
 
+Ids load_ids(
+  const FrameView& frame, const std::string& whose, const Executor& executor, Progress& progress)
+{
+  const ArrayView* const array = frame.find("id");
+  if (!array && frame.rows > 0)
+  {
+    throw Error("expected an array 'id' of the " + whose + ", got none");
+  }
+  return array ? Ids(*array, frame.rows, executor, progress) : Ids();
+}
+
 ParticleValues view_particles(const FrameView& frame, std::span<const std::string> names,
   const Executor& executor, Progress& progress)
 {

@@ -32,6 +32,11 @@ private:
   std::span<const std::int64_t> values_; ///< stay where they are when this is moved
 };
 
+/// Returns the ids in the array `id` of a frame; none if there is no such array because there are no rows. Throws Error that
+/// names whose the ids would be ("particles"), and what Ids throws.
+Ids load_ids(
+  const FrameView& frame, const std::string& whose, const Executor& executor, Progress& progress);
+
 /// Positions of particles, and some of their arrays, in any order of rows.
 struct ParticleValues
 {

@@ -47,16 +47,6 @@ std::vector<std::string> distinct_names(const JoinRequest& request)
   return names;
 }
 
-Ids find_ids(const FrameView& particles, const Executor& executor, Progress& progress)
-{
-  const ArrayView* const array = particles.find("id");
-  if (!array && particles.rows > 0)
-  {
-    throw Error("expected an array 'id' of the particles, got none");
-  }
-  return array ? Ids(*array, particles.rows, executor, progress) : Ids();
-}
-
 /// Finds the places of the particles at both ends of each row. Returns how many rows lack one.
 std::size_t find_ends(const IdFinder& finder, Places id1, Places id2, std::int64_t* firsts,
   std::int64_t* seconds, const Executor& executor, Progress& progress)
@@ -230,7 +220,7 @@ JoinedLines join_lines(const FrameView& particles, std::span<const std::int64_t>
       }
       const Executor executor(request.threads);
       parts.set_part(0, 0.1);
-      const Ids ids = find_ids(particles, executor, parts);
+      const Ids ids = load_ids(particles, "particles", executor, parts);
       parts.set_part(0.1, 0.2);
       ParticleValues values = view_particles(particles, distinct_names(request), executor, parts);
       share_sizes(values, particles.rows, ranks);

@@ -7,13 +7,14 @@
 #include "granular/local/id_finder.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
-#include "granular/paths/displacements.h"
+#include "granular/paths/unwrap.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <limits>
-#include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -26,17 +27,6 @@ constexpr std::size_t rows_per_chunk = 32 * some;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Numbers = std::vector<std::int64_t>;
-
-Ids find_ids(
-  const FrameView& frame, const std::string& whose, const Executor& executor, Progress& progress)
-{
-  const ArrayView* const array = frame.find("id");
-  if (!array && frame.rows > 0)
-  {
-    throw Error("expected an array 'id' of the " + whose + ", got none");
-  }
-  return array ? Ids(*array, frame.rows, executor, progress) : Ids();
-}
 
 std::vector<std::string> distinct_names(const std::vector<std::string>& names)
 {
@@ -108,6 +98,95 @@ void match_sizes(ParticleValues& current, ParticleValues& reference, std::size_t
   }
 }
 
+/// A point, and how often it has crossed the box along each of its vectors.
+struct CountedPoint
+{
+  Vector3 point = {};
+  Vector3 images = {};
+};
+
+Vector3 origin_of(const FrameView& frame)
+{
+  return frame.coordinates == Coordinates::Scaled ? Vector3{} : frame.point_origin;
+}
+
+/// Finds displacements of particles from a reference frame to the current frame.
+class Displacements
+{
+public:
+  /// The boxes, and the origins that were subtracted from points that are not scaled, are those of the frames. unwrapped:
+  /// points and their images give the unwrapped positions; otherwise displacements are the shortest periodic images. See
+  /// compare_particles.
+  Displacements(const FrameView& current, const FrameView& reference, bool unwrapped)
+  {
+    if (origin_of(current) != origin_of(reference))
+    {
+      origins_ = { origin_of(current), origin_of(reference) };
+    }
+    vectors_ = { current.header.box.vectors, reference.header.box.vectors };
+    if (!unwrapped)
+    {
+      shortest_.emplace(current.has_box ? current.header.box
+          : reference.has_box           ? reference.header.box
+                                        : Box{});
+      vectors_[0] = shortest_->box.vectors; // of which the shortest image takes some
+    }
+  }
+
+  /// Returns the displacement, rounded once.
+  Vector3 find(const CountedPoint& current, const CountedPoint& reference) const noexcept
+  {
+    const Vector3 displacement = this->subtract(current, reference);
+    const BoxCounts counts = shortest_ ? shortest_->images.find(displacement) : BoxCounts{};
+    if (counts == BoxCounts{})
+    {
+      return displacement;
+    }
+    CountedPoint shortest = current;
+    std::ranges::transform(counts, shortest.images.begin(),
+      [](std::int64_t count) { return static_cast<double>(count); });
+    return this->subtract(shortest, reference);
+  }
+
+  /// Returns true if a shortest image is far: the particle may have moved by another image.
+  bool is_far(const Vector3& displacement) const noexcept
+  {
+    return shortest_ && shortest_->is_far(displacement);
+  }
+
+private:
+  Vector3 subtract(const CountedPoint& current, const CountedPoint& reference) const noexcept
+  {
+    Vector3 result;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      CompensatedSum sum;
+      sum.add(current.point[axis]);
+      sum.add(-reference.point[axis]);
+      sum.add(origins_[0][axis]);
+      sum.add(-origins_[1][axis]);
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        if (current.images[i] != 0) // a box without bounds there has no images, and no number
+        {
+          sum.add_product(current.images[i], vectors_[0][i][axis]);
+        }
+        if (reference.images[i] != 0)
+        {
+          sum.add_product(-reference.images[i], vectors_[1][i][axis]);
+        }
+      }
+      result[axis] = sum.value();
+    }
+    return result;
+  }
+
+  std::array<Vector3, 2> origins_ = {}; ///< added to the current points, and to those before
+  std::array<std::array<Twofold3, 3>, 2> vectors_ = {}; ///< of the boxes
+  std::optional<BoxImages>
+    shortest_; ///< in which box the shortest is taken; of unwrapped points none
+};
+
 /// The places of some particles in both frames.
 struct Pairs
 {
@@ -120,18 +199,8 @@ struct Pairs
 };
 
 /// Compares the rows of a rank, chunk by chunk.
-class Comparer
+struct Comparer
 {
-public:
-  Comparer(const Side& current, const Side& reference, const Displacements& displacements,
-    ComparedParticles& result)
-    : current_(current)
-    , reference_(reference)
-    , displacements_(displacements)
-    , result_(result)
-  {
-  }
-
   /// places: of the rows from first on, in the reference frame, or IdFinder::nowhere. Returns how many particles are far.
   std::int64_t compare(
     std::span<const std::int64_t> places, std::size_t first, const unsigned char* ghosts) const
@@ -140,7 +209,7 @@ public:
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const bool found = places[i] != IdFinder::nowhere;
-      result_.changes[first + i] = found ? Change::Kept : Change::New;
+      result.changes[first + i] = found ? Change::Kept : Change::New;
       if (found)
       {
         pairs.current[pairs.count] = static_cast<std::int64_t>(first + i);
@@ -151,20 +220,19 @@ public:
         this->leave_empty(first + i);
       }
     }
-    for (std::size_t k = 0; k < result_.differences.size(); ++k)
+    for (std::size_t k = 0; k < result.differences.size(); ++k)
     {
       this->subtract(k, pairs);
     }
     return this->displace(pairs, ghosts);
   }
 
-private:
   static double* numbers(const Block& block) { return static_cast<double*>(block.data()); }
 
   void leave_empty(std::size_t row) const
   {
-    std::fill_n(numbers(result_.displacements) + 3 * row, 3, none);
-    for (const DifferenceArray& array : result_.differences)
+    std::fill_n(numbers(result.displacements) + 3 * row, 3, none);
+    for (const DifferenceArray& array : result.differences)
     {
       const auto size = static_cast<std::size_t>(array.size);
       std::fill_n(numbers(array.values) + size * row, size, none);
@@ -175,11 +243,11 @@ private:
   {
     std::array<double, some> now;
     std::array<double, some> before;
-    const DifferenceArray& array = result_.differences[which];
+    const DifferenceArray& array = result.differences[which];
     for (int k = 0; k < array.size; ++k)
     {
-      load_numbers(component_of(current_.values.arrays[which], k), pairs.now(), now.data());
-      load_numbers(component_of(reference_.values.arrays[which], k), pairs.before(), before.data());
+      load_numbers(component_of(current.values.arrays[which], k), pairs.now(), now.data());
+      load_numbers(component_of(reference.values.arrays[which], k), pairs.before(), before.data());
       for (std::size_t i = 0; i < pairs.count; ++i)
       {
         numbers(array.values)[pairs.current[i] * array.size + k] = now[i] - before[i];
@@ -210,25 +278,25 @@ private:
 
   std::int64_t displace(const Pairs& pairs, const unsigned char* ghosts) const
   {
-    const auto now = load_images(current_, pairs.now());
-    const auto before = load_images(reference_, pairs.before());
+    const auto now = load_images(current, pairs.now());
+    const auto before = load_images(reference, pairs.before());
     std::int64_t far = 0;
     for (std::size_t i = 0; i < pairs.count; ++i)
     {
       const std::int64_t row = pairs.current[i];
-      const Vector3 displacement = displacements_.find(
-        { point_of(current_, row), { now[0][i], now[1][i], now[2][i] } },
-        { point_of(reference_, pairs.reference[i]), { before[0][i], before[1][i], before[2][i] } });
-      std::ranges::copy(displacement, numbers(result_.displacements) + 3 * row);
-      far += displacements_.is_far(displacement) && !FrameView::is_duplicate(ghosts, row) ? 1 : 0;
+      const Vector3 displacement = displacements.find(
+        { point_of(current, row), { now[0][i], now[1][i], now[2][i] } },
+        { point_of(reference, pairs.reference[i]), { before[0][i], before[1][i], before[2][i] } });
+      std::ranges::copy(displacement, numbers(result.displacements) + 3 * row);
+      far += displacements.is_far(displacement) && !FrameView::is_duplicate(ghosts, row) ? 1 : 0;
     }
     return far;
   }
 
-  const Side& current_;
-  const Side& reference_;
-  const Displacements& displacements_;
-  ComparedParticles& result_;
+  const Side& current;
+  const Side& reference;
+  const Displacements& displacements;
+  ComparedParticles& result;
 };
 
 void make_arrays(
@@ -274,8 +342,8 @@ ComparedParticles compare_particles(const FrameView& current, const FrameView& r
     {
       const Executor executor(request.threads);
       parts.set_part(0, 0.1);
-      const Ids ids = find_ids(current, "particles", executor, parts);
-      const Ids old_ids = find_ids(reference, "particles of the reference frame", executor, parts);
+      const Ids ids = load_ids(current, "particles", executor, parts);
+      const Ids old_ids = load_ids(reference, "particles of the reference frame", executor, parts);
       const IdDirectory directory(ids.values(), current.ghosts, ranks);
       directory.expect_distinct("particles", ranks);
       const IdDirectory old_directory(old_ids.values(), reference.ghosts, ranks);
@@ -301,25 +369,23 @@ ComparedParticles compare_particles(const FrameView& current, const FrameView& r
       const IdFinder finder(fetched.ids);
       make_arrays(now, names.size(), current.rows, result);
       const Displacements displacements(current, reference, result.unwrapped);
-      const Comparer comparer(now, before, displacements, result);
-      const std::size_t chunks = (wanted.size() + rows_per_chunk - 1) / rows_per_chunk;
-      Numbers far(chunks);
+      const Comparer comparer = { now, before, displacements, result };
+      std::atomic<std::int64_t> far = 0;
       parts.set_part(0.4, 1);
-      executor.parallel_for(
-        chunks,
-        [&](std::size_t chunk, std::size_t)
+      executor.for_each_stretch(
+        wanted.size(), rows_per_chunk,
+        [&](std::size_t first, std::size_t rows, std::size_t)
         {
           std::array<std::int64_t, some> places;
-          const std::size_t end = std::min((chunk + 1) * rows_per_chunk, wanted.size());
-          for (std::size_t row = chunk * rows_per_chunk; row < end; row += some)
+          for (std::size_t row = first; row < first + rows; row += some)
           {
-            const std::size_t count = std::min(some, end - row);
+            const std::size_t count = std::min(some, first + rows - row);
             finder.find(ids.values().subspan(row, count), places.data());
-            far[chunk] += comparer.compare({ places.data(), count }, row, current.ghosts);
+            far += comparer.compare({ places.data(), count }, row, current.ghosts);
           }
         },
         parts);
-      result.far = std::accumulate(far.begin(), far.end(), std::int64_t{ 0 });
+      result.far = far;
       ranks.sum({ &result.far, 1 });
       return result;
     });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/geometry/box.h"
 #include "granular/local/lines.h"
-#include "granular/local/minimum_image.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/paths.h"
+#include "granular/paths/unwrap.h"
 
 #include <algorithm>
 #include <array>
@@ -53,37 +53,21 @@ double length_of(const Paths& paths, std::int64_t first, std::int64_t end)
   return length;
 }
 
-/// A box, and its images.
-struct Lattice
+/// Moves a point into the box along periodic axes. Returns how many of each vector were taken away.
+BoxCounts wrap(const BoxImages& images, Vector3& point)
 {
-  explicit Lattice(const Box& of)
-    : box(of)
-    , images(of)
-    , duals(periodic_duals(
-        of, { values_of(of.vectors[0]), values_of(of.vectors[1]), values_of(of.vectors[2]) }))
+  const Vector3 origin = values_of(images.box.origin);
+  const Vector3 offset = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
+  BoxCounts counts;
+  BoxCounts back;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
+    counts[axis] = static_cast<std::int64_t>(std::floor(dot(images.duals[axis], offset)));
+    back[axis] = -counts[axis];
   }
-
-  /// Moves a point into the box along periodic axes. Returns how many of each vector were taken away.
-  BoxCounts wrap(Vector3& point) const
-  {
-    const Vector3 origin = values_of(box.origin);
-    const Vector3 offset = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
-    BoxCounts counts;
-    BoxCounts back;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      counts[axis] = static_cast<std::int64_t>(std::floor(dot(duals[axis], offset)));
-      back[axis] = -counts[axis];
-    }
-    point = images.moved(point, back, {});
-    return counts;
-  }
-
-  const Box& box;
-  MinimumImage images;
-  std::array<Vector3, 3> duals; ///< of the periodic vectors
-};
+  point = images.images.moved(point, back, {});
+  return counts;
+}
 
 class Drawer
 {
@@ -138,10 +122,9 @@ private:
   void cut(std::int64_t place, const BoxCounts& counts)
   {
     const auto frame = static_cast<std::size_t>(paths_.frames[static_cast<std::size_t>(place)]);
-    if (!lattice_ || frame_ != frame)
+    if (!images_ || frame_ != frame)
     {
-      box_ = granular::less_origin(paths_.headers[frame].box, paths_.shown_origin);
-      lattice_.emplace(box_);
+      images_.emplace(granular::less_origin(paths_.headers[frame].box, paths_.shown_origin));
       frame_ = frame;
     }
     std::int64_t most = 0;
@@ -156,7 +139,7 @@ private:
     }
     Step step{ this->shown(place - 1, {}), {}, {}, place - 1, 0, 0 };
     const Vector3 to = this->shown(place, {});
-    const Vector3 way = lattice_->images.moved(to, counts, step.from);
+    const Vector3 way = images_->images.moved(to, counts, step.from);
     const std::int64_t steps = most > 1 ? most + 1 : 1;
     BoxCounts before = {};
     for (std::int64_t i = 1; i <= steps; ++i)
@@ -169,7 +152,7 @@ private:
         const Vector3 start = this->shown(place - 1, {});
         step.to = { start[0] + step.end * way[0], start[1] + step.end * way[1],
           start[2] + step.end * way[2] };
-        now = lattice_->wrap(step.to);
+        now = wrap(*images_, step.to);
       }
       step.counts = { now[0] - before[0], now[1] - before[1], now[2] - before[2] };
       this->cut(step);
@@ -197,7 +180,7 @@ private:
   /// Ends the line at a face, and begins the next one at another face.
   void cut(const Step& step)
   {
-    const LineSplitter splitter(lattice_->box, lattice_->images, origin_);
+    const LineSplitter splitter(images_->box, images_->images, origin_);
     std::array<LinePart, LineSplitter::most_parts> parts;
     const std::size_t count = splitter.split(step.from, step.to, step.counts, parts);
     double whole = 0;
@@ -259,9 +242,8 @@ private:
   PathLines lines_;
   std::int64_t path_ = 0;
   double length_ = 0;
-  std::size_t frame_ = 0; ///< that the lattice is of
-  Box box_;
-  std::optional<Lattice> lattice_;
+  std::size_t frame_ = 0; ///< whose images these are
+  std::optional<BoxImages> images_;
 };
 }
 

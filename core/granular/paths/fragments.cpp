@@ -182,67 +182,51 @@ void broadcast(Numbers& numbers, Communicator& ranks)
 /// A particle without lines is no part of a numbered fragment.
 constexpr std::int64_t alone = -1;
 
-/// Adds up the masses of numbered fragments, eight of them in each cell of a SumScale.
-class MassSums
+bool is_usable(double mass) noexcept
 {
-public:
-  /// which: the number of the fragment of each particle of this rank, or alone. Collective.
-  MassSums(std::span<const double> masses, const Numbers& which, std::size_t fragments,
-    Communicator& ranks)
-    : broken_(fragments)
+  return std::abs(mass) < 0x1p900;
+}
+
+/// Returns the mass of the fragment of each particle of this rank. which: the numbers of the fragments, or alone. The sums of
+/// eight fragments are in each cell of a SumScale. Collective.
+std::vector<double> sum_masses(
+  std::span<const double> masses, const Numbers& which, std::size_t fragments, Communicator& ranks)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> found(masses.begin(), masses.end());
+  std::ranges::replace_if(
+    found, [](double mass) { return !is_usable(mass); }, 0.0);
+  const SumScale scale = make_scale(terms_of(found), 1, ranks);
+  Numbers sums(scale.size() * ((fragments + SumScale::lanes - 1) / SumScale::lanes));
+  Numbers broken(fragments); // masses that cannot be added
+  for (std::size_t i = 0; i < masses.size(); ++i)
   {
-    const SumScale scale = scale_of(masses, ranks);
-    Numbers sums(scale.size() * ((fragments + SumScale::lanes - 1) / SumScale::lanes));
-    for (std::size_t i = 0; i < masses.size(); ++i)
+    if (which[i] != alone)
     {
-      if (which[i] == alone)
-      {
-        continue;
-      }
       const auto fragment = static_cast<std::size_t>(which[i]);
-      if (!is_usable(masses[i]))
-      {
-        ++broken_[fragment];
-        continue;
-      }
+      broken[fragment] += is_usable(masses[i]) ? 0 : 1;
       SumScale::Terms terms = {};
-      terms[fragment % SumScale::lanes] = masses[i];
+      terms[fragment % SumScale::lanes] = found[i];
       const auto cell = static_cast<std::int64_t>(fragment / SumScale::lanes);
       scale.add({ &terms, 1 }, &cell, sums.data());
     }
-    ranks.sum(sums);
-    ranks.sum(broken_);
-    for (std::size_t at = 0; at < sums.size(); at += scale.size())
-    {
-      const SumScale::Terms values = scale.values(sums.data() + at);
-      sums_.insert(sums_.end(), values.begin(), values.end());
-    }
   }
-
-  /// Returns the mass of the fragment of a particle.
-  double mass_of(double own, std::int64_t which) const noexcept
+  ranks.sum(sums);
+  ranks.sum(broken);
+  std::vector<double> of_fragments;
+  for (std::size_t at = 0; at < sums.size(); at += scale.size())
   {
-    const auto fragment = static_cast<std::size_t>(which);
-    const bool usable = which == alone ? is_usable(own) : broken_[fragment] == 0;
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    return !usable ? none : which == alone ? own : sums_[fragment];
+    const SumScale::Terms values = scale.values(sums.data() + at);
+    of_fragments.insert(of_fragments.end(), values.begin(), values.end());
   }
-
-private:
-  static bool is_usable(double mass) noexcept { return std::abs(mass) < 0x1p900; }
-
-  /// For the masses of all ranks that can be added.
-  static SumScale scale_of(std::span<const double> masses, Communicator& ranks)
+  for (std::size_t i = 0; i < masses.size(); ++i)
   {
-    std::vector<double> usable(masses.begin(), masses.end());
-    std::ranges::replace_if(
-      usable, [](double mass) { return !is_usable(mass); }, 0.0);
-    return make_scale(terms_of(usable), 1, ranks);
+    const auto fragment = static_cast<std::size_t>(which[i]);
+    const bool usable = which[i] == alone ? is_usable(masses[i]) : broken[fragment] == 0;
+    found[i] = !usable ? none : which[i] == alone ? masses[i] : of_fragments[fragment];
   }
-
-  Numbers broken_; ///< masses of each fragment that cannot be added
-  std::vector<double> sums_;
-};
+  return found;
+}
 }
 
 Fragments find_fragments(
@@ -284,11 +268,7 @@ Fragments find_fragments(
       }
       if (masses)
       {
-        const MassSums sums(*masses, which, all.labels.size(), ranks);
-        for (std::size_t i = 0; i < ids.size(); ++i)
-        {
-          found.masses.push_back(sums.mass_of((*masses)[i], which[i]));
-        }
+        found.masses = sum_masses(*masses, which, all.labels.size(), ranks);
       }
       return found;
     });

@@ -143,16 +143,13 @@ std::vector<std::int64_t> share_ids(std::span<const std::int64_t> ids, Communica
 {
   std::vector<std::int64_t> all(ids.begin(), ids.end());
   make_distinct(all);
-  if (ranks.size() > 1)
+  const std::vector<std::vector<std::int64_t>> lists = gather(ranks, all);
+  all.clear();
+  for (const std::vector<std::int64_t>& list : lists)
   {
-    const std::vector<std::vector<std::int64_t>> lists = gather(ranks, all);
-    all.clear();
-    for (const std::vector<std::int64_t>& list : lists)
-    {
-      all.insert(all.end(), list.begin(), list.end());
-    }
-    make_distinct(all);
+    all.insert(all.end(), list.begin(), list.end());
   }
+  make_distinct(all);
   return all;
 }
 

@@ -93,19 +93,6 @@ void pick_array(const ArrayView& view, std::span<const std::int64_t> rows, PathA
   throw Error("expected numbers in array '" + name + "' of the particles, got texts", where);
 }
 
-/// The names that a frame has, of which only arrays of numbers are wanted.
-void check_numbers(const FrameView& frame, const std::vector<std::string>& names)
-{
-  for (const std::string& name : names)
-  {
-    const ArrayView* const array = frame.find(name);
-    if (array && array->type == ValueType::Text)
-    {
-      refuse_texts(name);
-    }
-  }
-}
-
 void load_points(const FrameView& frame, std::span<const std::int64_t> rows, const Vector3& origin,
   std::vector<double>& points, const Executor& executor, Progress& progress)
 {
@@ -178,7 +165,6 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   {
     throw Error("expected an array 'id' of the particles, got none: paths need ids");
   }
-  check_numbers(frame, request.arrays);
   const Ids ids(*id_array, frame.rows, executor, progress);
   picked.has_rows = true;
   picked.rows = std::move(spent.rows);
@@ -192,6 +178,10 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
   {
     if (const ArrayView* const view = frame.find(picked.arrays[i].name))
     {
+      if (view->type == ValueType::Text)
+      {
+        refuse_texts(picked.arrays[i].name);
+      }
       picked.arrays[i].words = std::move(spent.arrays[i].words);
       pick_array(*view, rows, picked.arrays[i], executor, progress);
     }

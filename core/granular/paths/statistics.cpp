@@ -20,18 +20,14 @@ namespace
 {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// The bounds of the magnitudes of terms that are not 0, and their number.
+/// The bounds of the magnitudes of terms that are not 0.
 struct Magnitudes
 {
   std::array<double, SumScale::lanes> least;
-  std::array<double, SumScale::lanes> greatest;
+  std::array<double, SumScale::lanes> greatest = {};
   std::int64_t terms = 0;
 
-  Magnitudes() noexcept
-  {
-    least.fill(std::numeric_limits<double>::infinity());
-    greatest.fill(0);
-  }
+  Magnitudes() noexcept { least.fill(std::numeric_limits<double>::infinity()); }
 
   void include(const Magnitudes& other) noexcept
   {
@@ -44,27 +40,21 @@ struct Magnitudes
   }
 };
 
-Magnitudes measure(std::span<const SumScale::Terms> terms, std::size_t sums) noexcept
+Magnitudes measure(std::span<const SumScale::Terms> terms) noexcept
 {
-  Magnitudes lanes;
+  Magnitudes found;
   for (const SumScale::Terms& one : terms)
   {
     for (std::size_t i = 0; i < SumScale::lanes; ++i)
     {
       const double size = std::abs(one[i]);
-      lanes.greatest[i] = size > lanes.greatest[i] ? size : lanes.greatest[i];
-      const double least = size > 0 ? size : lanes.least[i];
-      lanes.least[i] = least < lanes.least[i] ? least : lanes.least[i];
+      found.greatest[i] = size > found.greatest[i] ? size : found.greatest[i];
+      const double least = size > 0 ? size : found.least[i];
+      found.least[i] = least < found.least[i] ? least : found.least[i];
     }
   }
-  Magnitudes all; // those of a sum
-  for (std::size_t i = 0; i < SumScale::lanes; ++i)
-  {
-    all.least[i % sums] = std::min(all.least[i % sums], lanes.least[i]);
-    all.greatest[i % sums] = std::max(all.greatest[i % sums], lanes.greatest[i]);
-  }
-  all.terms = static_cast<std::int64_t>(terms.size() * (SumScale::lanes / sums));
-  return all;
+  found.terms = static_cast<std::int64_t>(terms.size());
+  return found;
 }
 
 constexpr std::size_t terms_per_stretch = std::size_t{ 1 } << 13;
@@ -152,7 +142,7 @@ SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Co
     terms.size(), terms_per_stretch,
     [&](std::size_t first, std::size_t count, std::size_t)
     {
-      const Magnitudes found = measure(terms.subspan(first, count), sums);
+      const Magnitudes found = measure(terms.subspan(first, count));
       const std::lock_guard lock(mutex);
       own.include(found);
     },
@@ -165,9 +155,15 @@ SumScale make_scale(std::span<const SumScale::Terms> terms, std::size_t sums, Co
   std::array<SumScale::Range, SumScale::lanes> ranges;
   for (std::size_t i = 0; i < SumScale::lanes; ++i)
   {
+    const std::size_t sum = i % sums;
+    all.least[sum] = std::min(all.least[sum], all.least[i]);
+    all.greatest[sum] = std::max(all.greatest[sum], all.greatest[i]);
+  }
+  for (std::size_t i = 0; i < SumScale::lanes; ++i)
+  {
     ranges[i] = range_of(all.least[i % sums], all.greatest[i % sums]);
   }
-  return { ranges, all.terms };
+  return { ranges, all.terms * static_cast<std::int64_t>(SumScale::lanes / sums) };
 }
 
 SumScale::Terms sum_exactly(std::span<const SumScale::Terms> terms, std::size_t sums,

@@ -4,6 +4,7 @@
 #include "granular/local/minimum_image.h"
 #include "granular/particles/point_forms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -14,20 +15,11 @@ namespace
 {
 bool is_same(const Box& a, const Box& b) noexcept
 {
-  const auto equal = [](const Twofold3& one, const Twofold3& other)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      if (one[k].hi != other[k].hi || one[k].lo != other[k].lo)
-      {
-        return false;
-      }
-    }
-    return true;
+  const auto numbers = [](const Twofold3& x) {
+    return std::array{ x[0].hi, x[0].lo, x[1].hi, x[1].lo, x[2].hi, x[2].lo };
   };
-  return a.boundary == b.boundary && equal(a.origin, b.origin) &&
-    equal(a.vectors[0], b.vectors[0]) && equal(a.vectors[1], b.vectors[1]) &&
-    equal(a.vectors[2], b.vectors[2]);
+  return a.boundary == b.boundary && numbers(a.origin) == numbers(b.origin) &&
+    std::ranges::equal(a.vectors, b.vectors, {}, numbers, numbers);
 }
 
 Vector3 add(const Vector3& a, double times, const Vector3& b) noexcept
@@ -58,6 +50,19 @@ std::int64_t resemble(
   vector = add(vector, -times, other);
   return static_cast<std::int64_t>(times);
 }
+}
+
+BoxImages::BoxImages(const Box& of)
+  : box(of)
+  , images(of)
+  , duals(periodic_duals(of, vectors_of(of)))
+{
+}
+
+bool BoxImages::is_far(const Vector3& vector) const noexcept
+{
+  return std::ranges::any_of(
+    duals, [&](const Vector3& dual) { return std::abs(dot(dual, vector)) > 0.25; });
 }
 
 BoxChange::BoxChange(const Box& from, const Box& to)
@@ -123,10 +128,11 @@ Vector3 BoxChange::growth_of(const BoxCounts& counts) const noexcept
 
 void Unwrapper::add_box(const Box& box)
 {
-  if (kinds_.empty() || !is_same(kinds_.back().box, box))
+  if (kinds_.empty() || !is_same(kinds_.back().images.box, box))
   {
-    const BoxChange change = kinds_.empty() ? BoxChange() : BoxChange(kinds_.back().box, box);
-    kinds_.push_back({ box, MinimumImage(box), periodic_duals(box, vectors_of(box)), change });
+    const BoxChange change =
+      kinds_.empty() ? BoxChange() : BoxChange(kinds_.back().images.box, box);
+    kinds_.push_back({ BoxImages(box), change });
   }
   kinds_of_frames_.push_back(kinds_.size() - 1);
 }
@@ -147,15 +153,10 @@ void Unwrapper::carry(PathState& state) const
 
 Unwrapper::Step Unwrapper::find_step(const Vector3& from, const Vector3& to) const
 {
-  const Kind& kind = kinds_[kinds_of_frames_.back()];
+  const BoxImages& box = kinds_[kinds_of_frames_.back()].images;
   const Vector3 straight = minus(to, from);
-  Step step{ kind.images.find(straight) };
-  const Vector3 shortest = kind.images.moved(straight, step.counts, {});
-  for (const Vector3& dual : kind.duals)
-  {
-    step.is_long = step.is_long || std::abs(dot(dual, shortest)) > 0.25;
-  }
-  return step;
+  const BoxCounts counts = box.images.find(straight);
+  return { counts, box.is_far(box.images.moved(straight, counts, {})) };
 }
 
 Unwrapper::Step Unwrapper::advance(PathState& state, const PathFrame& frame, std::size_t i) const

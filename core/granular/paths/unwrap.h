@@ -13,6 +13,19 @@
 
 namespace granular
 {
+/// A box and its periodic images.
+struct BoxImages
+{
+  explicit BoxImages(const Box& of);
+
+  /// Returns true if a vector is longer than a quarter of the box along a periodic box vector.
+  bool is_far(const Vector3& vector) const noexcept;
+
+  Box box;
+  MinimumImage images;
+  std::array<Vector3, 3> duals; ///< of the periodic vectors; zero along other axes
+};
+
 /// The way from the box of one frame to that of another, for particles whose image counts are not known.
 ///
 /// A periodic box that changes its size or tilt carries its particles along, as fix deform and barostats do: between two
@@ -91,10 +104,8 @@ private:
   /// A box that differs from that of the frame before.
   struct Kind
   {
-    Box box;
-    MinimumImage images;
-    std::array<Vector3, 3> duals; ///< of the periodic vectors; zero along other axes
-    BoxChange change;             ///< from the kind before
+    BoxImages images;
+    BoxChange change; ///< from the kind before
   };
 
   void carry(PathState& state) const;
