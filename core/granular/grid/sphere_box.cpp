@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/grid/sphere_box.h"
 
-#include "granular/grid/sphere_octant.h"
-#include "granular/grid/sphere_parts.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -4,6 +4,9 @@
 
 #include "granular/geometry/box.h"
 
+#include <array>
+#include <cstddef>
+
 namespace granular
 {
 /// Returns the volume of a sphere [m3].
@@ -18,5 +21,18 @@ double centred_box_volume(
 
 /// Returns the product of three lengths, in an order without over- or underflow on the way.
 double box_volume(const Vector3& edges) noexcept;
+
+/// Returns the common volume of a sphere around the origin and a box, 0 <= lo <= hi, by quadrature of the areas of its
+/// slices: a sum of positive terms, so nothing cancels, however small the box is against the sphere. The cube of the radius
+/// must neither over- nor underflow.
+double octant_volume(double radius, Vector3 lo, Vector3 hi) noexcept;
+
+/// The volumes of the up to eight parts into which planes across x, y and z cut a sphere. Bit 0 of the index is set on the
+/// side of the plane across x without the centre, bits 1 and 2 likewise for y and z.
+using SphereParts = std::array<double, 8>;
+
+/// distances: of the planes from the centre, from 0; the radius and more: no plane. In closed form; the error of a part is a
+/// few ulps of the sphere's volume.
+SphereParts cut_sphere(double radius, const Vector3& distances) noexcept;
 }
 #endif

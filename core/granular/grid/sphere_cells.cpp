@@ -2,7 +2,6 @@
 #include "granular/grid/sphere_cells.h"
 
 #include "granular/grid/sphere_box.h"
-#include "granular/grid/sphere_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,40 +29,17 @@ Slab make_slab(const std::vector<double>& faces, std::int64_t cell, Twofold cent
   const double* face = faces.data() + cell;
   return { difference(face[0], centre), difference(face[1], centre), face[1] - face[0] };
 }
-}
 
-/// Adds the shares that are within a range, with their numbers there.
-class SphereCells::Shares
+/// Adds a share if its cell is within a range.
+void add(const std::array<std::int64_t, 3>& cell, double volume, const CellRange& within,
+  std::vector<CellShare>& shares)
 {
-public:
-  Shares(const CellRange& within, std::vector<CellShare>& shares)
-    : within_(within)
-    , shares_(shares)
+  if (const std::int64_t number = within.number(cell); number >= 0)
   {
+    shares.push_back({ number, volume });
   }
-
-  CellRange intersection(CellRange range) const
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      range.first[axis] = std::max(range.first[axis], within_.first[axis]);
-      range.last[axis] = std::min(range.last[axis], within_.last[axis]);
-    }
-    return range;
-  }
-
-  void add(const std::array<std::int64_t, 3>& cell, double volume)
-  {
-    if (const std::int64_t number = within_.number(cell); number >= 0)
-    {
-      shares_.push_back({ number, volume });
-    }
-  }
-
-private:
-  const CellRange& within_;
-  std::vector<CellShare>& shares_;
-};
+}
+}
 
 /// The cuts that the faces across an axis make in a sphere.
 struct SphereCells::Cut
@@ -180,7 +156,7 @@ bool SphereCells::cut_once(
 
 /// Adds the parts of a sphere that no more than one face an axis cuts; otherwise it is not done.
 bool SphereCells::add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre,
-  double radius, Shares& shares) const
+  double radius, const CellRange& within, std::vector<CellShare>& shares) const
 {
   std::array<Cut, 3> cuts;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -196,17 +172,22 @@ bool SphereCells::add_parts(const std::array<std::int64_t, 3>& near, const Twofo
   {
     if (parts[part] > 0)
     {
-      shares.add(
-        { cuts[0].cells[part & 1], cuts[1].cells[(part >> 1) & 1], cuts[2].cells[part >> 2] },
-        parts[part]);
+      add({ cuts[0].cells[part & 1], cuts[1].cells[(part >> 1) & 1], cuts[2].cells[part >> 2] },
+        parts[part], within, shares);
     }
   }
   return true;
 }
 
-void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& shares) const
+void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRange& within,
+  std::vector<CellShare>& shares) const
 {
-  const CellRange range = shares.intersection(this->range(centre, radius));
+  CellRange range = this->range(centre, radius);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    range.first[axis] = std::max(range.first[axis], within.first[axis]);
+    range.last[axis] = std::min(range.last[axis], within.last[axis]);
+  }
   for (std::int64_t k = range.first[2]; k < range.last[2]; ++k)
   {
     const Slab z = make_slab(faces_[2], k, centre[2]);
@@ -220,7 +201,7 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& share
           radius, { x.lo, y.lo, z.lo }, { x.hi, y.hi, z.hi }, { x.edge, y.edge, z.edge });
         if (volume > 0)
         {
-          shares.add({ i, j, k }, volume);
+          add({ i, j, k }, volume, within, shares);
         }
       }
     }
@@ -228,7 +209,8 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, Shares& share
 }
 
 /// The common cases, in which few comparisons tell what faces there are; otherwise it is not done.
-bool SphereCells::add_quickly(const Twofold3& centre, double radius, Shares& shares) const
+bool SphereCells::add_quickly(const Twofold3& centre, double radius, const CellRange& within,
+  std::vector<CellShare>& shares) const
 {
   std::array<std::int64_t, 3> near = {}; // the cell of the centre, or the nearest one
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -242,7 +224,7 @@ bool SphereCells::add_quickly(const Twofold3& centre, double radius, Shares& sha
       return true;
     }
   }
-  return this->add_parts(near, centre, radius, shares);
+  return this->add_parts(near, centre, radius, within, shares);
 }
 
 void SphereCells::find(const Twofold3& centre, double radius, const CellRange& within,
@@ -252,10 +234,9 @@ void SphereCells::find(const Twofold3& centre, double radius, const CellRange& w
   {
     return;
   }
-  Shares found(within, shares);
-  if (!short_cuts_ || !this->add_quickly(centre, radius, found))
+  if (!short_cuts_ || !this->add_quickly(centre, radius, within, shares))
   {
-    this->add_cells(centre, radius, found);
+    this->add_cells(centre, radius, within, shares);
   }
 }
 }

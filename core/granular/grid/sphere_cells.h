@@ -36,16 +36,17 @@ public:
 
 private:
   struct Cut;
-  class Shares;
 
   bool touches(const Twofold3& centre, double radius) const noexcept;
   std::int64_t cell_of(std::size_t axis, double x) const noexcept;
-  bool add_quickly(const Twofold3& centre, double radius, Shares& shares) const;
+  bool add_quickly(const Twofold3& centre, double radius, const CellRange& within,
+    std::vector<CellShare>& shares) const;
   bool cut_once(
     std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept;
   bool add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre, double radius,
-    Shares& shares) const;
-  void add_cells(const Twofold3& centre, double radius, Shares& shares) const;
+    const CellRange& within, std::vector<CellShare>& shares) const;
+  void add_cells(const Twofold3& centre, double radius, const CellRange& within,
+    std::vector<CellShare>& shares) const;
 
   EulerGrid grid_;
   std::array<std::vector<double>, 3> faces_;

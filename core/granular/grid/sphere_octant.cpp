@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/grid/sphere_octant.h"
+#include "granular/grid/sphere_box.h"
 
 #include <algorithm>
 #include <array>

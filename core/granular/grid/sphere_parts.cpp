@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/grid/sphere_parts.h"
-
 #include "granular/grid/sphere_box.h"
 
 #include <algorithm>
