@@ -32,17 +32,6 @@ const LatticeCell& cell_of(LatticeKind kind)
 /// The part of a length that may be missing for a whole number of cells: a box that was made for them may have been
 /// rounded.
 constexpr double tolerance = 32 * std::numeric_limits<double>::epsilon();
-
-/// Returns the number of cells of a length that fit into a height; limited, so that the numbers of three axes multiply.
-std::int64_t count_cells(
-  const LatticeCell& cell, double height, bool periodic, double length, double radius)
-{
-  constexpr double most = 1 << 20;
-  const double fit =
-    periodic ? height / length : (height - 2 * radius - cell.last * length) / length + 1;
-  const double cells = std::floor(fit + tolerance * (1 + height / length));
-  return static_cast<std::int64_t>(std::clamp(cells, 0.0, most));
-}
 }
 
 Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double radius)
@@ -80,14 +69,20 @@ Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double 
   this->lay(box, high, radius);
 }
 
+/// Returns the number of cells that fit along each axis; limited, so that the numbers of three axes multiply.
 std::array<std::int64_t, 3> Lattice::cells_for(
   const BoxShape& box, double length, double radius) const noexcept
 {
+  constexpr double most = 1 << 20;
+  const double cell = cell_.length * length;
   std::array<std::int64_t, 3> cells;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    cells[axis] =
-      count_cells(cell_, box.heights[axis], box.periodic[axis], cell_.length * length, radius);
+    const double height = box.heights[axis];
+    const double fit =
+      box.periodic[axis] ? height / cell : (height - 2 * radius - cell_.last * cell) / cell + 1;
+    const double count = std::floor(fit + tolerance * (1 + height / cell));
+    cells[axis] = static_cast<std::int64_t>(std::clamp(count, 0.0, most));
   }
   return cells;
 }
@@ -208,22 +203,16 @@ const Vector3& Lattice::part_of(std::int64_t row) const noexcept
   return cell_.particles[static_cast<std::size_t>(row) % cell_.particles.size()];
 }
 
-Vector3 Lattice::scaled(std::int64_t row) const noexcept
+Vector3 Lattice::point(std::int64_t row, const BoxShape& box) const noexcept
 {
   const std::array<std::int64_t, 3> index = this->place_of(row);
   const Vector3& part = this->part_of(row);
-  Vector3 place;
+  Vector3 scaled;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    place[axis] = first_[axis] + (static_cast<double>(index[axis]) + part[axis]) * step_[axis];
+    scaled[axis] = first_[axis] + (static_cast<double>(index[axis]) + part[axis]) * step_[axis];
   }
-  return place;
-}
-
-Vector3 Lattice::point(std::int64_t row, const BoxShape& box) const noexcept
-{
-  Vector3 point = box.point(this->scaled(row));
-  const std::array<std::int64_t, 3> index = this->place_of(row);
+  Vector3 point = box.point(scaled);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (exact_[axis])

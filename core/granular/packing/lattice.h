@@ -3,7 +3,6 @@
 #define granular_packing_lattice_h
 
 #include "granular/packing/box_shape.h"
-#include "granular/packing/placed_particle.h"
 
 #include <array>
 #include <cstdint>
@@ -40,10 +39,7 @@ public:
   /// Returns the number of particles: the cells times the particles of each.
   std::int64_t capacity() const noexcept;
 
-  /// Returns the position of a particle in units of the box vectors, x fastest, then y, then z.
-  Vector3 scaled(std::int64_t row) const noexcept;
-
-  /// Returns the position of a particle in the box of the constructor.
+  /// Returns the position of a particle in the box of the constructor, x fastest, then y, then z.
   Vector3 point(std::int64_t row, const BoxShape& box) const noexcept;
 
   /// Returns a distance that no two particles and images are nearer than, in exact arithmetic.

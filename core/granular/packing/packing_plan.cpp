@@ -80,19 +80,16 @@ Box made_box(const PackingRequest& request, const std::string& boundary, double 
   const std::array<bool, 3> periodic = { boundary[0] == 'p', boundary[3] == 'p',
     boundary[6] == 'p' };
   Vector3 lengths;
-  switch (request.arrangement)
+  if (request.arrangement == Arrangement::Random)
   {
-    case Arrangement::Random:
-      lengths.fill(made_edge(request, boundary != "pp pp pp"));
-      break;
-    case Arrangement::SimpleCubic:
-    case Arrangement::FaceCentredCubic:
-      lengths = Lattice::lengths_for(
-        lattice_of(request.arrangement), periodic, distance, radius, request.grains);
-      break;
-    case Arrangement::Chain:
-      lengths = Chain::lengths_for(periodic, distance, radius, request.grains);
-      break;
+    lengths.fill(made_edge(request, boundary != "pp pp pp"));
+  }
+  else
+  {
+    lengths = request.arrangement == Arrangement::Chain
+      ? Chain::lengths_for(periodic, distance, radius, request.grains)
+      : Lattice::lengths_for(
+          lattice_of(request.arrangement), periodic, distance, radius, request.grains);
   }
   Box box = Box::from_bounds({}, lengths);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -108,17 +105,10 @@ double nearest_in(const BoxShape& box, const PackingRequest& request)
 {
   const double distance = distance_of(request);
   const double radius = request.radii.largest();
-  switch (request.arrangement)
-  {
-    case Arrangement::Random:
-      break;
-    case Arrangement::SimpleCubic:
-    case Arrangement::FaceCentredCubic:
-      return Lattice(lattice_of(request.arrangement), box, distance, radius).nearest();
-    case Arrangement::Chain:
-      return Chain(box, distance, radius, request.grains).nearest();
-  }
-  return HUGE_VAL;
+  return request.arrangement == Arrangement::Random ? HUGE_VAL
+    : request.arrangement == Arrangement::Chain
+    ? Chain(box, distance, radius, request.grains).nearest()
+    : Lattice(lattice_of(request.arrangement), box, distance, radius).nearest();
 }
 
 /// The box for the grains, with room for the rounding of coordinates where that could make them overlap.
@@ -205,22 +195,21 @@ PackingPlan::PackingPlan(const PackingRequest& wanted, Progress& progress)
   check_room(shape, request.radii, request.arrangement == Arrangement::Random);
   const double radius = request.radii.largest();
   const double distance = distance_of(request);
-  switch (request.arrangement)
+  if (request.arrangement == Arrangement::Random)
   {
-    case Arrangement::Random:
-      grains = random_count(request, shape);
-      break;
-    case Arrangement::SimpleCubic:
-    case Arrangement::FaceCentredCubic:
-      lattice_.emplace(lattice_of(request.arrangement), shape, distance, radius);
-      nearest_ = lattice_->nearest();
-      grains = lattice_count(request, *lattice_);
-      break;
-    case Arrangement::Chain:
-      chain_.emplace(shape, distance, radius, request.grains);
-      nearest_ = chain_->nearest();
-      grains = chain_->particles();
-      break;
+    grains = random_count(request, shape);
+  }
+  else if (request.arrangement == Arrangement::Chain)
+  {
+    chain_.emplace(shape, distance, radius, request.grains);
+    nearest_ = chain_->nearest();
+    grains = chain_->particles();
+  }
+  else
+  {
+    lattice_.emplace(lattice_of(request.arrangement), shape, distance, radius);
+    nearest_ = lattice_->nearest();
+    grains = lattice_count(request, *lattice_);
   }
   radii_ = Radii(request.radii, grains, request.seed);
   first = begin_of_part(grains, request.piece, request.pieces);

@@ -7,7 +7,6 @@
 #include "granular/packing/chain.h"
 #include "granular/packing/lattice.h"
 #include "granular/packing/packing.h"
-#include "granular/packing/placed_particle.h"
 #include "granular/packing/radii.h"
 #include "granular/packing/random_packing.h"
 

@@ -30,23 +30,6 @@ double inset_of(const BoxShape& box, std::size_t axis, double distance)
   const double part = distance / box.heights[axis];
   return box.periodic[axis] ? 0 : part > 0.5 - flat / 2 ? 0.5 : part;
 }
-
-/// Returns how many cells of two radii fit along each axis, but not many more than there are particles.
-Vector3 count_cells(const Vector3& heights, const SizeClass& size)
-{
-  const double most = 2 * static_cast<double>(size.particles) + 64;
-  Vector3 cells;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    cells[axis] = std::clamp(std::floor(heights[axis] / (2 * size.radius)), 1.0, most);
-  }
-  while (cells[0] * cells[1] * cells[2] > most)
-  {
-    double& longest = *std::ranges::max_element(cells);
-    longest = std::max(1.0, std::floor(longest * 0.9));
-  }
-  return cells;
-}
 }
 
 RandomPacking::RandomPacking(
@@ -113,11 +96,19 @@ void RandomPacking::place_group(std::uint32_t size, std::size_t end, RandomNumbe
   const double radius = sizes_[size].radius;
   for (Try& wanted : group_)
   {
-    this->draw(wanted, radius, numbers);
-    for (const NearCell& near : wanted.near)
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      __builtin_prefetch(first_.data() + near.cell);
+      const double inset = inset_of(box_, axis, radius + gap_);
+      wanted.scaled[axis] = inset + numbers.unit() * (1 - 2 * inset);
     }
+    wanted.at = box_.edge(wanted.scaled);
+    wanted.near.clear();
+    this->each_near(wanted.scaled, radius + gap_, true,
+      [&](const NearCell& near)
+      {
+        __builtin_prefetch(first_.data() + near.cell);
+        wanted.near.push_back(near);
+      });
   }
   for (const Try& wanted : group_)
   {
@@ -133,21 +124,6 @@ void RandomPacking::place_group(std::uint32_t size, std::size_t end, RandomNumbe
     {
       this->add(wanted.scaled, { wanted.at, size, none });
     }
-  }
-}
-
-void RandomPacking::draw(Try& wanted, double radius, RandomNumbers& numbers) const
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double inset = inset_of(box_, axis, radius + gap_);
-    wanted.scaled[axis] = inset + numbers.unit() * (1 - 2 * inset);
-  }
-  wanted.at = box_.edge(wanted.scaled);
-  wanted.near.clear();
-  for (const Grid& grid : grids_)
-  {
-    this->find_near(grid, wanted.scaled, radius + grid.radius + gap_, wanted.near);
   }
 }
 
@@ -170,11 +146,19 @@ bool RandomPacking::fits(const Try& wanted, double radius) const noexcept
   return true;
 }
 
-/// The highest axis of the box has the largest stride.
+/// Adds cells of two radii, but not many more than there are particles. The highest axis of the box has the largest stride.
 void RandomPacking::add_grid(const SizeClass& size)
 {
+  const double most = 2 * static_cast<double>(size.particles) + 64;
+  Vector3 counts;
+  std::ranges::transform(box_.heights, counts.begin(),
+    [&](double height) { return std::clamp(std::floor(height / (2 * size.radius)), 1.0, most); });
+  while (counts[0] * counts[1] * counts[2] > most)
+  {
+    double& longest = *std::ranges::max_element(counts);
+    longest = std::max(1.0, std::floor(longest * 0.9));
+  }
   Grid grid = { size.radius, first_.size() };
-  const Vector3 counts = count_cells(box_.heights, size);
   std::array<std::size_t, 3> order = { 0, 1, 2 };
   std::ranges::stable_sort(order, {}, [this](std::size_t axis) { return box_.heights[axis]; });
   std::int64_t cells = 1;
@@ -208,43 +192,49 @@ void RandomPacking::add(const Vector3& scaled, Particle particle)
   particles_.push_back(particle);
 }
 
-/// Finds the cells of a grid that may have centres nearer than a distance, each once per image.
-void RandomPacking::find_near(
-  const Grid& grid, const Vector3& scaled, double distance, std::vector<NearCell>& near) const
+/// Visits the cells that may have centres nearer than a distance, each once per image. of_size: and the radius of the grid.
+template <class Visit>
+void RandomPacking::each_near(
+  const Vector3& scaled, double distance, bool of_size, const Visit& visit) const
 {
-  std::array<std::int64_t, 3> low;
-  std::array<std::int64_t, 3> high;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (const Grid& grid : grids_)
   {
-    const auto count = static_cast<double>(grid.counts[axis]);
-    // more by the rounding of scaled coordinates
-    const double reach = (distance * (1 + 1e-9) + 16 * box_.rounding()) / box_.heights[axis];
-    low[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] - reach) * count));
-    high[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] + reach) * count));
-    if (!box_.periodic[axis])
+    std::array<std::int64_t, 3> low;
+    std::array<std::int64_t, 3> high;
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      low[axis] = std::max<std::int64_t>(low[axis], 0);
-      high[axis] = std::min(high[axis], grid.counts[axis] - 1);
-    }
-  }
-  PeriodicImage image = {};
-  const auto offset = [&](std::size_t axis, std::int64_t cell)
-  {
-    const std::int64_t count = grid.counts[axis];
-    const std::int64_t away = image_of(cell, count);
-    image[axis] = static_cast<std::int8_t>(away);
-    return static_cast<std::size_t>((cell - away * count) * grid.strides[axis]);
-  };
-  for (std::int64_t z = low[2]; z <= high[2]; ++z)
-  {
-    const std::size_t layer = grid.begin + offset(2, z);
-    for (std::int64_t y = low[1]; y <= high[1]; ++y)
-    {
-      const std::size_t line = layer + offset(1, y);
-      for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      const auto count = static_cast<double>(grid.counts[axis]);
+      // more by the rounding of scaled coordinates
+      const double reach =
+        ((distance + (of_size ? grid.radius : 0)) * (1 + 1e-9) + 16 * box_.rounding()) /
+        box_.heights[axis];
+      low[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] - reach) * count));
+      high[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] + reach) * count));
+      if (!box_.periodic[axis])
       {
-        const std::size_t cell = line + offset(0, x);
-        near.push_back({ static_cast<std::uint32_t>(cell), image });
+        low[axis] = std::max<std::int64_t>(low[axis], 0);
+        high[axis] = std::min(high[axis], grid.counts[axis] - 1);
+      }
+    }
+    NearCell near = {};
+    const auto offset = [&](std::size_t axis, std::int64_t cell)
+    {
+      const std::int64_t count = grid.counts[axis];
+      const std::int64_t away = image_of(cell, count);
+      near.image[axis] = static_cast<std::int8_t>(away);
+      return static_cast<std::size_t>((cell - away * count) * grid.strides[axis]);
+    };
+    for (std::int64_t z = low[2]; z <= high[2]; ++z)
+    {
+      const std::size_t layer = grid.begin + offset(2, z);
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+      {
+        const std::size_t line = layer + offset(1, y);
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+        {
+          near.cell = static_cast<std::uint32_t>(line + offset(0, x));
+          visit(near);
+        }
       }
     }
   }
@@ -285,19 +275,14 @@ PlacedParticle RandomPacking::particle(std::int64_t row) const noexcept
 
 void RandomPacking::visit_near(std::int64_t row, double distance, const VisitNear& visit) const
 {
-  const Vector3 scaled = box_.scaled(particles_[static_cast<std::size_t>(row)].at);
-  std::vector<NearCell> near_cells;
-  for (const Grid& grid : grids_)
-  {
-    this->find_near(grid, scaled, distance, near_cells);
-  }
-  for (const NearCell& near : near_cells)
-  {
-    for (std::uint32_t i = first_[near.cell]; i != none; i = particles_[i].next)
+  this->each_near(box_.scaled(particles_[static_cast<std::size_t>(row)].at), distance, false,
+    [&](const NearCell& near)
     {
-      visit(i, near.image);
-    }
-  }
+      for (std::uint32_t i = first_[near.cell]; i != none; i = particles_[i].next)
+      {
+        visit(i, near.image);
+      }
+    });
 }
 
 void RandomPacking::give_up() const

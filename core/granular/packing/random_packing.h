@@ -4,7 +4,6 @@
 
 #include "granular/common/progress.h"
 #include "granular/packing/box_shape.h"
-#include "granular/packing/placed_particle.h"
 #include "granular/packing/radii.h"
 #include "granular/packing/random_numbers.h"
 
@@ -66,13 +65,12 @@ private:
 
   bool place_all(RandomNumbers numbers, Progress& progress);
   void place_group(std::uint32_t size, std::size_t end, RandomNumbers& numbers);
-  void draw(Try& wanted, double radius, RandomNumbers& numbers) const;
   bool fits(const Try& wanted, double radius) const noexcept;
   void add_grid(const SizeClass& size);
   void add(const Vector3& scaled, Particle particle);
   static std::size_t cell_of(const Grid& grid, const Vector3& scaled) noexcept;
-  void find_near(
-    const Grid& grid, const Vector3& scaled, double distance, std::vector<NearCell>& near) const;
+  template <class Visit>
+  void each_near(const Vector3& scaled, double distance, bool of_size, const Visit& visit) const;
   void number_by_cells();
   [[noreturn]] void give_up() const;
 
