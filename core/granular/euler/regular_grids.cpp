@@ -27,161 +27,98 @@ struct Span
   double hi = 0;
 };
 
-class GridFinder
-{
-public:
-  explicit GridFinder(const EulerFrame& frame)
-    : frame_(frame)
-    , cells_(frame)
-  {
-  }
-
-  std::vector<RegularGrid> find(Notices& notices);
-
-private:
-  RegularGrid grid_of_faces() const;
-  Span span_of(const CellBlock& block, std::size_t axis) const;
-  std::vector<Span>::iterator find_span(const CellBlock& block, std::size_t axis);
-  void make_spans();
-  void check_spans();
-  void find_spacings(Notices& notices);
-  void find_bounds(std::size_t axis);
-
-  const EulerFrame& frame_;
-  CellBlocks cells_;
-  std::vector<CellBlock> blocks_;
-  std::array<std::vector<Span>, 3> spans_; ///< from low to high
-};
-
-std::vector<RegularGrid> GridFinder::find(Notices& notices)
-{
-  if (frame_.cells == 0)
-  {
-    return {};
-  }
-  if (!frame_.faces[0].empty())
-  {
-    return { this->grid_of_faces() };
-  }
-  for (std::int64_t cell = 0; cell < frame_.cells;)
-  {
-    blocks_.push_back(cells_.block(cell));
-    const auto& counts = blocks_.back().counts;
-    cell += counts[0] * counts[1] * counts[2];
-  }
-  this->make_spans();
-  this->check_spans();
-  this->find_spacings(notices);
-  std::vector<RegularGrid> grids;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    this->find_bounds(axis);
-  }
-  for (const CellBlock& block : blocks_)
-  {
-    RegularGrid& grid = grids.emplace_back(RegularGrid{ {}, block.first });
-    grid.grid.counts = block.counts;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const Span& span = *this->find_span(block, axis);
-      grid.grid.lo[axis] = span.lo;
-      grid.grid.hi[axis] = span.hi;
-    }
-  }
-  return grids;
-}
+using Spans = std::vector<Span>; ///< from low to high
 
 /// Returns the grid by its faces, which a rectilinear grid tells.
-RegularGrid GridFinder::grid_of_faces() const
+RegularGrid grid_of_faces(const EulerFrame& frame, const CellBlocks& cells)
 {
   RegularGrid grid;
   std::int64_t stride = 1;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const std::vector<double>& faces = frame_.faces[axis];
-    const auto cells = static_cast<std::int64_t>(faces.size()) - 1;
-    EqualSteps steps(faces.front(), cells_.tolerance(axis, faces[1] - faces[0]));
-    for (std::int64_t i = 0; i < cells; ++i)
+    const std::vector<double>& faces = frame.faces[axis];
+    const auto count = static_cast<std::int64_t>(faces.size()) - 1;
+    EqualSteps steps(faces.front(), cells.tolerance(axis, faces[1] - faces[0]));
+    for (std::int64_t i = 0; i < count; ++i)
     {
       const auto at = static_cast<std::size_t>(i);
       if (!(faces[at + 1] > faces[at] && steps.add(faces[at + 1])))
       {
-        cells_.fail(i * stride, ", which is not as large as those before");
+        cells.fail(i * stride, ", which is not as large as those before");
       }
     }
     grid.grid.lo[axis] = faces.front();
     grid.grid.hi[axis] = faces.back();
-    grid.grid.counts[axis] = cells;
-    stride *= cells;
+    grid.grid.counts[axis] = count;
+    stride *= count;
   }
   return grid;
 }
 
-Span GridFinder::span_of(const CellBlock& block, std::size_t axis) const
+Span span_of(const CellBlocks& cells, const CellBlock& block, std::size_t axis)
 {
   const auto& [x, y, z] = block.counts;
   const std::int64_t count = block.counts[axis];
-  const double first = cells_.at(block.first, axis);
-  const double last = cells_.at(block.first + x * y * z - 1, axis);
+  const double first = cells.at(block.first, axis);
+  const double last = cells.at(block.first + x * y * z - 1, axis);
   const double spacing = count > 1 ? (last - first) / static_cast<double>(count - 1) : 0;
   return { first, last, count, spacing };
 }
 
-std::vector<Span>::iterator GridFinder::find_span(const CellBlock& block, std::size_t axis)
+Spans::const_iterator find_span(const Spans& spans, double first)
 {
-  return std::ranges::lower_bound(
-    spans_[axis], cells_.at(block.first, axis), std::ranges::less(), &Span::first);
+  return std::ranges::lower_bound(spans, first, std::ranges::less(), &Span::first);
 }
 
-void GridFinder::make_spans()
+Spans make_spans(const CellBlocks& cells, const std::vector<CellBlock>& blocks, std::size_t axis)
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  Spans spans;
+  for (const CellBlock& block : blocks)
   {
-    std::vector<Span>& spans = spans_[axis];
-    for (const CellBlock& block : blocks_)
-    {
-      spans.push_back(this->span_of(block, axis));
-    }
-    std::ranges::sort(spans, std::ranges::less(), &Span::first);
-    const auto same = [](const Span& a, const Span& b) { return a.first == b.first; };
-    spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());
+    spans.push_back(span_of(cells, block, axis));
   }
+  std::ranges::sort(spans, std::ranges::less(), &Span::first);
+  const auto same = [](const Span& a, const Span& b) { return a.first == b.first; };
+  spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());
+  return spans;
 }
 
 /// The grids must be those of processes that divide a box by planes: each combination of spans comes once.
-void GridFinder::check_spans()
+void check_spans(
+  const CellBlocks& cells, const std::vector<CellBlock>& blocks, const std::array<Spans, 3>& all)
 {
   double combinations = 1;
-  for (const std::vector<Span>& spans : spans_)
+  for (const Spans& spans : all)
   {
     combinations *= static_cast<double>(spans.size());
   }
-  std::vector<bool> seen(blocks_.size());
-  bool good = combinations == static_cast<double>(blocks_.size());
-  for (std::size_t i = 0; good && i < blocks_.size(); ++i)
+  std::vector<bool> seen(blocks.size());
+  bool good = combinations == static_cast<double>(blocks.size());
+  for (std::size_t i = 0; good && i < blocks.size(); ++i)
   {
     std::size_t number = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const auto span = this->find_span(blocks_[i], axis);
-      const Span own = this->span_of(blocks_[i], axis);
+      const Spans& spans = all[axis];
+      const Span own = span_of(cells, blocks[i], axis);
+      const auto span = find_span(spans, own.first);
       good = good && own.last == span->last && own.count == span->count &&
-        (span + 1 == spans_[axis].end() || span->last < span[1].first);
-      number = number * spans_[axis].size() + static_cast<std::size_t>(span - spans_[axis].begin());
+        (span + 1 == spans.end() || span->last < span[1].first);
+      number = number * spans.size() + static_cast<std::size_t>(span - spans.begin());
     }
     good = good && !seen[number];
     seen[number] = true;
   }
   if (!good)
   {
-    cells_.fail(blocks_.size() > 1 ? blocks_[1].first : 0,
-      ", which does not go on with a grid; there are " + std::to_string(blocks_.size()) +
+    cells.fail(blocks.size() > 1 ? blocks[1].first : 0,
+      ", which does not go on with a grid; there are " + std::to_string(blocks.size()) +
         " parts, which do not fill a box");
   }
 }
 
 /// Spans of one cell are what those beside them leave; where all are such, as if they were equal.
-void fill_spacings(std::vector<Span>& spans)
+void fill_spacings(Spans& spans)
 {
   const auto is_known = [](const Span& span) { return span.spacing != 0; };
   if (spans.size() > 1 && std::ranges::none_of(spans, is_known))
@@ -206,7 +143,7 @@ void fill_spacings(std::vector<Span>& spans)
 }
 
 /// The mean edge of cells along an axis; 0: not known.
-double mean_spacing(const std::vector<Span>& spans)
+double mean_spacing(const Spans& spans)
 {
   double length = 0;
   double cells = 0;
@@ -219,11 +156,11 @@ double mean_spacing(const std::vector<Span>& spans)
 }
 
 /// Along an axis with one cell its edge is a guess.
-void GridFinder::find_spacings(Notices& notices)
+void find_spacings(const CellBlocks& cells, std::array<Spans, 3>& all, Notices& notices)
 {
   double sum = 0;
   int known = 0;
-  for (std::vector<Span>& spans : spans_)
+  for (Spans& spans : all)
   {
     fill_spacings(spans);
     sum += mean_spacing(spans);
@@ -231,13 +168,13 @@ void GridFinder::find_spacings(Notices& notices)
   }
   if (known == 0)
   {
-    cells_.fail(0, " alone, of which nobody knows how large it is");
+    cells.fail(0, " alone, of which nobody knows how large it is");
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (spans_[axis][0].spacing == 0)
+    if (all[axis][0].spacing == 0)
     {
-      spans_[axis][0].spacing = sum / known;
+      all[axis][0].spacing = sum / known;
       Notice& notice = notices.emplace_back();
       notice.text = std::string("there is one cell along ") + "xyz"[axis] +
         ", and the file does not say how thick it is: it is taken to be " +
@@ -247,13 +184,13 @@ void GridFinder::find_spacings(Notices& notices)
 }
 
 /// Those of neighbours are the same.
-void GridFinder::find_bounds(std::size_t axis)
+void find_bounds(
+  const CellBlocks& cells, const std::vector<CellBlock>& blocks, std::size_t axis, Spans& spans)
 {
-  std::vector<Span>& spans = spans_[axis];
   const auto first_cell = [&](const Span& span)
   {
     return std::ranges::find_if(
-      blocks_, [&](const CellBlock& block) { return cells_.at(block.first, axis) == span.first; })
+      blocks, [&](const CellBlock& block) { return cells.at(block.first, axis) == span.first; })
       ->first;
   };
   for (Span& span : spans)
@@ -264,7 +201,7 @@ void GridFinder::find_bounds(std::size_t axis)
       span.spacing > 0 && span.lo < span.hi; // far from the origin rounding may take it
     if (!(has_room && std::isfinite(span.lo) && std::isfinite(span.hi)))
     {
-      cells_.fail(first_cell(span), ", which has no room");
+      cells.fail(first_cell(span), ", which has no room");
     }
   }
   for (std::size_t i = 1; i < spans.size(); ++i)
@@ -273,17 +210,60 @@ void GridFinder::find_bounds(std::size_t axis)
     Span& above = spans[i];
     if (std::abs(above.lo - below.hi) > std::min(below.spacing, above.spacing) / 4)
     {
-      cells_.fail(first_cell(above), ", which does not begin where others end");
+      cells.fail(first_cell(above), ", which does not begin where others end");
     }
     below.hi = above.lo = std::midpoint(below.hi, above.lo);
   }
+}
+
+std::vector<RegularGrid> find_grids(const EulerFrame& frame, Notices& notices)
+{
+  const CellBlocks cells(frame);
+  if (frame.cells == 0)
+  {
+    return {};
+  }
+  if (!frame.faces[0].empty())
+  {
+    return { grid_of_faces(frame, cells) };
+  }
+  std::vector<CellBlock> blocks;
+  for (std::int64_t cell = 0; cell < frame.cells;)
+  {
+    blocks.push_back(cells.block(cell));
+    const auto& [x, y, z] = blocks.back().counts;
+    cell += x * y * z;
+  }
+  std::array<Spans, 3> spans;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    spans[axis] = make_spans(cells, blocks, axis);
+  }
+  check_spans(cells, blocks, spans);
+  find_spacings(cells, spans, notices);
+  std::vector<RegularGrid> grids;
+  for (const CellBlock& block : blocks)
+  {
+    grids.push_back({ { {}, {}, block.counts }, block.first });
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    find_bounds(cells, blocks, axis, spans[axis]);
+    for (RegularGrid& grid : grids)
+    {
+      const Span& span = *find_span(spans[axis], cells.at(grid.first, axis));
+      grid.grid.lo[axis] = span.lo;
+      grid.grid.hi[axis] = span.hi;
+    }
+  }
+  return grids;
 }
 }
 
 std::vector<RegularGrid> find_regular_grids(const EulerFrame& frame, Notices& notices)
 {
   Notices found; // of what is no grid there are none
-  std::vector<RegularGrid> grids = GridFinder(frame).find(found);
+  std::vector<RegularGrid> grids = find_grids(frame, found);
   notices.insert(notices.end(), found.begin(), found.end());
   return grids;
 }

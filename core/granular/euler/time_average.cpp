@@ -14,6 +14,9 @@ namespace
 constexpr std::array<std::array<std::size_t, 2>, 6> stress_axes = { { { 0, 0 }, { 1, 1 }, { 2, 2 },
   { 0, 1 }, { 0, 2 }, { 1, 2 } } };
 
+constexpr std::array<std::vector<double> EulerFields::*, 4> mean_fields = { &EulerFields::density,
+  &EulerFields::momentum, &EulerFields::contact_normal, &EulerFields::contact_shear };
+
 void add_values(const std::vector<double>& values, std::vector<CompensatedSum>& sums)
 {
   sums.resize(values.size());
@@ -21,14 +24,6 @@ void add_values(const std::vector<double>& values, std::vector<CompensatedSum>& 
   {
     sums[i].add(values[i]);
   }
-}
-
-std::vector<double> means_of(const std::vector<CompensatedSum>& sums, double frames)
-{
-  std::vector<double> means(sums.size());
-  std::ranges::transform(
-    sums, means.begin(), [&](const CompensatedSum& sum) { return sum.value() / frames; });
-  return means;
 }
 
 double quotient(const CompensatedSum& sum, const CompensatedSum& weight)
@@ -99,7 +94,6 @@ void TimeAverage::add(const EulerAverages& frame)
 void TimeAverage::add_fields(const EulerAverages& frame)
 {
   const EulerFields& fields = frame.fields;
-  FieldSums& sums = field_sums_;
   const bool forces = !fields.contact_normal.empty();
   if (std::ranges::any_of(frame.sums.ends, [](double ends) { return ends > 0; }))
   {
@@ -111,55 +105,52 @@ void TimeAverage::add_fields(const EulerAverages& frame)
     }
     forces_ = forces;
   }
-  add_values(fields.density, sums.density);
-  add_values(fields.momentum, sums.momentum);
-  if (forces)
+  for (std::size_t i = 0; i < mean_fields.size(); ++i)
   {
-    add_values(fields.contact_normal, sums.contact_normal);
-    add_values(fields.contact_shear, sums.contact_shear);
+    if (!(fields.*mean_fields[i]).empty()) // a frame without contacts may have none
+    {
+      add_values(fields.*mean_fields[i], means_[i]);
+    }
   }
-  add_values(frame.sums.ends, sums.ends);
-  add_values(frame.sums.contacts, sums.contacts);
-  add_values(frame.sums.normals, sums.normals);
+  add_values(frame.sums.ends, ends_);
+  add_values(frame.sums.contacts, contacts_);
+  add_values(frame.sums.normals, normals_);
   coordination_ = !fields.coordination.empty();
-  sums.energy.resize(fields.temperature.size());
-  for (std::size_t i = 0; i < sums.energy.size(); ++i)
+  energy_.resize(fields.temperature.size());
+  for (std::size_t i = 0; i < energy_.size(); ++i)
   {
-    sums.energy[i].add_product(3 * frame.sums.mass[i], fields.temperature[i]);
+    energy_[i].add_product(3 * frame.sums.mass[i], fields.temperature[i]);
   }
 }
 
 EulerFields TimeAverage::fields() const
 {
   EulerFields fields;
-  const FieldSums& sums = field_sums_;
-  const auto frames = static_cast<double>(frames_);
-  fields.density = means_of(sums.density, frames);
-  fields.momentum = means_of(sums.momentum, frames);
-  if (forces_.value_or(true))
+  for (std::size_t i = 0; i < (forces_.value_or(true) ? 4U : 2U);
+       ++i) // the last two are of contacts
   {
-    fields.contact_normal = means_of(sums.contact_normal, frames);
-    fields.contact_shear = means_of(sums.contact_shear, frames);
+    for (const CompensatedSum& sum : means_[i])
+    {
+      (fields.*mean_fields[i]).push_back(sum.value() / static_cast<double>(frames_));
+    }
   }
-  fields.temperature.resize(sums.energy.size());
-  for (std::size_t i = 0; i < sums.energy.size(); ++i)
+  fields.temperature.resize(energy_.size());
+  for (std::size_t i = 0; i < energy_.size(); ++i)
   {
-    CompensatedSum energy = sums.energy[i];
+    CompensatedSum energy = energy_[i];
     for (std::size_t k = 0; k < 3; ++k)
     {
       energy.add(sums_[i].apart[k].twofold());
     }
     fields.temperature[i] = quotient(energy, sums_[i].mass) / 3;
   }
-  fields.coordination.resize(coordination_ ? sums.ends.size() : 0);
-  for (std::size_t i = 0; i < fields.coordination.size(); ++i)
+  for (std::size_t i = 0; coordination_ && i < ends_.size(); ++i)
   {
-    fields.coordination[i] = quotient(sums.ends[i], sums_[i].share);
+    fields.coordination.push_back(quotient(ends_[i], sums_[i].share));
   }
-  fields.fabric.resize(sums.normals.size());
-  for (std::size_t i = 0; i < fields.fabric.size(); ++i)
+  for (std::size_t i = 0; i < normals_.size(); ++i)
   {
-    fields.fabric[i] = quotient(sums.normals[i], sums.contacts[i / 6]);
+    fields.fabric.push_back(quotient(normals_[i], contacts_[i / 6]));
   }
   return fields;
 }

@@ -49,18 +49,7 @@ private:
     void add_velocities(double mass, const double* momentum);
   };
 
-  /// Sums over frames of the fields that they have, one value after the other.
-  struct FieldSums
-  {
-    std::vector<CompensatedSum> density;
-    std::vector<CompensatedSum> momentum;
-    std::vector<CompensatedSum> energy; ///< sum w m |v - v_avg|^2
-    std::vector<CompensatedSum> contact_normal;
-    std::vector<CompensatedSum> contact_shear;
-    std::vector<CompensatedSum> ends;
-    std::vector<CompensatedSum> contacts;
-    std::vector<CompensatedSum> normals;
-  };
+  using FrameSums = std::vector<CompensatedSum>; ///< over frames, one value after the other
 
   void add_fields(const EulerAverages& frame);
 
@@ -69,7 +58,11 @@ private:
   std::optional<bool> forces_; ///< contacts have some; frames without contacts do not tell
   std::vector<double> centres_;
   std::vector<Sums> sums_;
-  FieldSums field_sums_;
+  std::array<FrameSums, 4> means_; ///< of the fields that are means over time: see mean_fields
+  FrameSums energy_;               ///< sum w m |v - v_avg|^2
+  FrameSums ends_;
+  FrameSums contacts_;
+  FrameSums normals_;
   bool coordination_ = false; ///< is wanted
 };
 }
