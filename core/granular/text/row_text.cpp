@@ -147,31 +147,6 @@ RowEnd store_row(const char* first, const char* last, const RowPlan& plan) noexc
     ++sink;
   }
 }
-
-/// Decodes the line at result.ptr, which may be blank, the plain way.
-void decode_plain_row(const char* last, RowPlan& plan, RowResult& result) noexcept
-{
-  const RowEnd row = store_row(result.ptr, last, plan);
-  result.status = row.status;
-  if (row.status == RowStatus::Done)
-  {
-    result.ptr = row.word + 1;
-    if (row.count != 0)
-    {
-      ++result.rows;
-      result.surplus = result.surplus || row.count > plan.columns;
-      for (ColumnSink& sink : plan.sinks)
-      {
-        sink.data += sink.stride;
-      }
-    }
-  }
-  else if (row.status != RowStatus::TooFew)
-  {
-    result.ptr = row.word;
-    result.column = static_cast<int>(row.count);
-  }
-}
 }
 
 void decode_plain(
@@ -179,7 +154,23 @@ void decode_plain(
 {
   while (result.ptr < last && result.rows < max_rows && result.status == RowStatus::Done)
   {
-    decode_plain_row(last, plan, result);
+    const RowEnd row = store_row(result.ptr, last, plan);
+    result.status = row.status;
+    if (row.status == RowStatus::Done)
+    {
+      result.ptr = row.word + 1;
+      result.surplus = result.surplus || row.count > plan.columns;
+      result.rows += row.count != 0 ? 1 : 0;
+      for (ColumnSink& sink : plan.sinks)
+      {
+        sink.data += row.count != 0 ? sink.stride : 0;
+      }
+    }
+    else if (row.status != RowStatus::TooFew)
+    {
+      result.ptr = row.word;
+      result.column = static_cast<int>(row.count);
+    }
   }
 }
 }

@@ -30,20 +30,6 @@ GRANULAR_TARGET inline BlockMarks mark_block(const char* block) noexcept
     mask(_mm256_cmpeq_epi8(low, feed), _mm256_cmpeq_epi8(high, feed)) };
 }
 
-/// Appends the places of the bits, eight at a time: writing too many costs less than a branch.
-GRANULAR_TARGET inline void append(
-  std::uint64_t bits, std::uint32_t base, std::uint16_t* to, int count) noexcept
-{
-  for (int done = 0; done < count; done += 8)
-  {
-    for (int i = 0; i < 8; ++i)
-    {
-      to[done + i] = static_cast<std::uint16_t>(base + _tzcnt_u64(bits));
-      bits = _blsr_u64(bits);
-    }
-  }
-}
-
 /// Byte by byte: a table takes less time than to look for each bit.
 GRANULAR_TARGET inline void append_edges(
   std::uint64_t bits, std::uint32_t base, Edges& edges) noexcept
@@ -64,200 +50,131 @@ GRANULAR_TARGET inline void append_edges(
   }
 }
 
-GRANULAR_TARGET inline void append_lines(
-  std::uint64_t bits, std::uint32_t base, Edges& edges) noexcept
+constexpr std::size_t width = 32;
+using Register = __m256i;
+
+#include "granular/text/row_text_vectors.inc"
+
+struct Set
 {
-  std::uint16_t* const to = edges.line_ends + edges.lines;
-  to[0] = static_cast<std::uint16_t>(base + _tzcnt_u64(bits));
-  to[1] = static_cast<std::uint16_t>(base + _tzcnt_u64(_blsr_u64(bits)));
-  const int count = __builtin_popcountll(bits);
-  if (count > 2)
+  GRANULAR_TARGET Set() noexcept {}
+
+  GRANULAR_TARGET static bool any(Half bits) noexcept
   {
-    append(bits, base, to, count);
+    return _mm_testz_si128(__m128i(bits), __m128i(bits)) == 0;
   }
-  edges.lines += static_cast<std::uint32_t>(count);
-}
 
-/// Words that are parsed together.
-constexpr std::uint32_t group = 4;
-
-/// A constant that is kept in a register, or in memory: it is not made anew each time.
-GRANULAR_TARGET inline __m256i kept(__m256i constant) noexcept
-{
-  asm("" : "+x"(constant));
-  return constant;
-}
-
-/// Constants for all words.
-struct Constants
-{
-  __m256i zero;
-  __m256i minus;
-  __m256i point;
-  __m256i one;
-  __m256i sign_bit;
-  __m256i all_but_sign;
-  __m256i nine;
-  __m256i pairs;  ///< to combine digits
-  __m256i fours;  ///< pairs of them
-  __m256i eights; ///< fours of them
-  __m256i hundred_million;
-  __m256i point_bits;
-  __m256i one_64;
-  __m256i sixteen_64;
-  __m256i high_bits; ///< of 2^84
-  __m256i low_bits;  ///< of 2^52
-  __m256i both;      ///< 2^84 + 2^52
-
-  GRANULAR_TARGET Constants() noexcept
-    : zero(kept(_mm256_set1_epi8('0')))
-    , minus(kept(_mm256_set1_epi8('-')))
-    , point(kept(_mm256_set1_epi8('.' - '0')))
-    , one(kept(_mm256_set1_epi8(1)))
-    , sign_bit(kept(_mm256_set1_epi8(-128)))
-    , all_but_sign(kept(_mm256_set1_epi8(0x7f)))
-    , nine(kept(_mm256_set1_epi8(9)))
-    , pairs(kept(_mm256_set1_epi16(0x010a)))
-    , fours(kept(_mm256_set1_epi32(0x00010064)))
-    , eights(kept(_mm256_set1_epi32(0x00012710)))
-    , hundred_million(kept(_mm256_set1_epi64x(100'000'000)))
-    , point_bits(kept(_mm256_set1_epi64x(0x7f)))
-    , one_64(kept(_mm256_set1_epi64x(1)))
-    , sixteen_64(kept(_mm256_set1_epi64x(16)))
-    , high_bits(kept(_mm256_set1_epi64x(0x4530000000000000)))
-    , low_bits(kept(_mm256_set1_epi64x(0x4330000000000000)))
-    , both(kept(_mm256_castpd_si256(_mm256_set1_pd(0x1p84 + 0x1p52))))
+  GRANULAR_TARGET static bool any(Register bits) noexcept
   {
+    return _mm256_testz_si256(bits, bits) == 0;
   }
+
+  /// The bytes less limits; 0 where they are not above these.
+  GRANULAR_TARGET static Register less(Register bytes, Register limits) noexcept
+  {
+    return _mm256_subs_epu8(bytes, limits);
+  }
+
+  template <class Load>
+  GRANULAR_TARGET static Register join(const Load& load) noexcept
+  {
+    return load(0);
+  }
+
+  GRANULAR_TARGET static Register add_byte_pairs(Register bytes, Register factors) noexcept
+  {
+    return _mm256_maddubs_epi16(bytes, factors);
+  }
+
+  GRANULAR_TARGET static Register add_pairs(Register numbers, Register factors) noexcept
+  {
+    return _mm256_madd_epi16(numbers, factors);
+  }
+
+  GRANULAR_TARGET static Register pack(Register a, Register b) noexcept
+  {
+    return _mm256_packus_epi32(a, b);
+  }
+
+  /// Multiplies the low halves of numbers.
+  GRANULAR_TARGET static Register multiply_halves(Register a, Register b) noexcept
+  {
+    return _mm256_mul_epu32(a, b);
+  }
+
+  GRANULAR_TARGET static Register widened(Half numbers) noexcept
+  {
+    return _mm256_cvtepi32_epi64(__m128i(numbers));
+  }
+
+  GRANULAR_TARGET static Register shuffle(Register bytes, Register from) noexcept
+  {
+    return _mm256_shuffle_epi8(bytes, from);
+  }
+
+  /// Adds bytes, eight by eight.
+  GRANULAR_TARGET static Register add_eight(Register bytes) noexcept
+  {
+    return _mm256_sad_epu8(bytes, _mm256_setzero_si256());
+  }
+
+  GRANULAR_TARGET static Register pick(Half numbers, Register from) noexcept
+  {
+    return _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(__m128i(numbers)), from);
+  }
+
+  /// The sums of bytes times the bytes of a number.
+  GRANULAR_TARGET static Half add_digits(Half bytes, int factors) noexcept
+  {
+    return Half(_mm_madd_epi16(
+      _mm_maddubs_epi16(__m128i(bytes), _mm_set1_epi32(factors)), _mm_set1_epi16(1)));
+  }
+
+  GRANULAR_TARGET static Half less(Half bytes, Half limits) noexcept
+  {
+    return Half(_mm_subs_epu8(__m128i(bytes), __m128i(limits)));
+  }
+
+  /// The upper and the lower half of numbers, each exact: 2^84 + high * 2^32 and 2^52 + low as their bits, then without them.
+  GRANULAR_TARGET __m256d upper(Register numbers) const noexcept
+  {
+    return __m256d(_mm256_srli_epi64(numbers, 32) | upper_bits) - __m256d(both);
+  }
+
+  GRANULAR_TARGET __m256d lower(Register numbers) const noexcept
+  {
+    return __m256d(_mm256_blend_epi32(numbers, lower_bits, 0xaa));
+  }
+
+  /// The nearest doubles.
+  GRANULAR_TARGET __m256d nearest(Register numbers) const noexcept
+  {
+    return upper(numbers) + lower(numbers);
+  }
+
+  /// The numbers less their nearest doubles.
+  GRANULAR_TARGET __m256d rest(Register numbers, __m256d whole) const noexcept
+  {
+    const __m256d back = whole - upper(numbers);
+    return (upper(numbers) - (whole - back)) + (lower(numbers) - back);
+  }
+
+  GRANULAR_TARGET static __m256d fused(__m256d a, __m256d b, __m256d c) noexcept
+  {
+    return _mm256_fmadd_pd(a, b, c);
+  }
+
+  GRANULAR_TARGET static __m256d power_of_ten(Half power) noexcept
+  {
+    return _mm256_i32gather_pd(powers_of_ten.data(), __m128i(power), 8);
+  }
+
+  Register upper_bits = kept(0x4530000000000000); ///< of 2^84
+  Register lower_bits = kept(0x4330000000000000); ///< of 2^52
+  Register both = kept(std::bit_cast<std::uint64_t>(0x1p84 + 0x1p52));
 };
 
-/// The bytes of a register by their place in its lanes of so many bytes.
-template <std::size_t Bytes>
-constexpr auto by_place(std::uint8_t from)
-{
-  std::array<std::uint8_t, 32> bytes{};
-  for (std::size_t i = 0; i < 32; ++i)
-  {
-    bytes[i] = static_cast<std::uint8_t>(from + i % Bytes);
-  }
-  return bytes;
-}
-
-/// The bytes of a register by their place in its lanes: those that are named, else 0.
-template <std::size_t Bytes, std::size_t Count>
-constexpr auto by_place_of(const std::pair<std::size_t, std::uint8_t> (&named)[Count])
-{
-  std::array<std::uint8_t, 32> bytes{};
-  for (std::size_t lane = 0; lane < 32; lane += Bytes)
-  {
-    for (const auto& [place, byte] : named)
-    {
-      bytes[lane + place] = byte;
-    }
-  }
-  return bytes;
-}
-
-alignas(32) constexpr auto places_of_8 = by_place<8>(0);
-alignas(32) constexpr auto places_of_16 = by_place<16>(0);
-alignas(32) constexpr auto places_of_16_from_1 = by_place<16>(1);
-
-template <class Table>
-GRANULAR_TARGET inline __m256i load(const Table& table) noexcept
-{
-  return _mm256_load_si256(reinterpret_cast<const __m256i*>(table.data()));
-}
-
-/// Lengths of four words.
-GRANULAR_TARGET inline __m128i lengths(const std::uint16_t* edges) noexcept
-{
-  const __m128i edge = _mm_loadu_si128(reinterpret_cast<const __m128i*>(edges));
-  return _mm_sub_epi32(_mm_srli_epi32(edge, 16), _mm_and_si128(edge, _mm_set1_epi32(0xffff)));
-}
-
-GRANULAR_TARGET inline bool all_zero(__m256i bits) noexcept
-{
-  return _mm256_testz_si256(bits, bits) != 0;
-}
-
-/// Digits four by four as numbers: in the low half of each 32 bits.
-GRANULAR_TARGET inline __m256i combine_fours(__m256i digits, const Constants& constants) noexcept
-{
-  return _mm256_madd_epi16(_mm256_maddubs_epi16(digits, constants.pairs), constants.fours);
-}
-
-/// Returns true if some bytes are above 9.
-GRANULAR_TARGET inline bool has_others(__m256i digits, const Constants& constants) noexcept
-{
-  return !all_zero(_mm256_subs_epu8(digits, constants.nine));
-}
-
-/// Eight digits of each of four integers.
-struct EightDigits
-{
-  __m256i value;
-  __m256i minus; ///< a byte of ones at its place
-  __m256i digits;
-};
-
-/// The eight bytes that are so many before the ends. start: place of the first that counts, perhaps
-/// before these bytes or behind them.
-GRANULAR_TARGET inline EightDigits read_digits(const char* base, const std::uint16_t* edges,
-  std::ptrdiff_t before, __m128i start, const Constants& constants) noexcept
-{
-  const auto text = [&](int i) GRANULAR_TARGET
-  {
-    long long bytes;
-    std::memcpy(&bytes, base + edges[2 * i + 1] - before, 8);
-    return bytes;
-  };
-  const __m256i word = _mm256_setr_epi64x(text(0), text(1), text(2), text(3));
-  const __m256i places = load(places_of_8);
-  const __m256i starts = _mm256_shuffle_epi8(
-    _mm256_cvtepu32_epi64(start), _mm256_setr_epi64x(0, 0x0808080808080808, 0, 0x0808080808080808));
-  const __m256i minus =
-    _mm256_and_si256(_mm256_cmpeq_epi8(places, starts), _mm256_cmpeq_epi8(word, constants.minus));
-  const __m256i outside = _mm256_or_si256(_mm256_cmpgt_epi8(starts, places), minus);
-  const __m256i digits = _mm256_andnot_si256(outside, _mm256_sub_epi8(word, constants.zero));
-  const __m256i eights =
-    _mm256_madd_epi16(combine_fours(digits, constants), _mm256_set1_epi64x(0x0000000100002710));
-  return { _mm256_add_epi64(_mm256_and_si256(eights, _mm256_set1_epi64x(0xffffffff)),
-             _mm256_srli_epi64(eights, 32)),
-    minus, digits };
-}
-
-/// Four integers of a sign and digits, of up to 16 characters. False if one is not.
-GRANULAR_TARGET inline bool parse_integers(const char* base, const std::uint16_t* edges,
-  const Constants& constants, std::uint64_t* values) noexcept
-{
-  const __m128i length = lengths(edges);
-  EightDigits low =
-    read_digits(base, edges, 8, _mm_sub_epi32(_mm_set1_epi32(8), length), constants);
-  bool good = true;
-  if (_mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(8))) != 0)
-  {
-    const EightDigits high =
-      read_digits(base, edges, 16, _mm_sub_epi32(_mm_set1_epi32(16), length), constants);
-    low.value =
-      _mm256_add_epi64(low.value, _mm256_mul_epu32(high.value, constants.hundred_million));
-    low.minus = _mm256_or_si256(low.minus, high.minus);
-    low.digits = _mm256_max_epu8(low.digits, high.digits);
-    good = _mm_movemask_epi8(_mm_cmpgt_epi32(length, _mm_set1_epi32(16))) == 0;
-  }
-  // all ones where there is no sign
-  const __m256i positive = _mm256_cmpeq_epi64(low.minus, _mm256_setzero_si256());
-  const __m256i single = _mm256_cmpeq_epi64(_mm256_cvtepi32_epi64(length), _mm256_set1_epi64x(1));
-  const __m256i sign = _mm256_andnot_si256(positive, _mm256_set1_epi64x(-1));
-  const __m256i value = _mm256_sub_epi64(_mm256_xor_si256(low.value, sign), sign);
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(values), value);
-  return good && !has_others(low.digits, constants) && all_zero(_mm256_and_si256(single, sign));
-}
-
-#include "granular/text/row_text_avx2_word.inc"
-
-#include "granular/text/row_text_word.inc"
-
-#include "granular/text/row_text_avx2_doubles.inc"
+#include "granular/text/row_text_numbers.inc"
 
 #include "granular/text/row_text_kernel.inc"
 }
