@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tests of positions.cpp on the path for processors without fused multiply-add: built here a
 // second time, with a processor that has nothing.
-#define __builtin_cpu_supports(feature) false
+#include "granular/common/simd.h"
+#undef GRANULAR_X86
 #include "granular/geometry/convert_positions.cpp"
-#undef __builtin_cpu_supports
 
 #include "positions.cpp" // NOLINT: the same tests

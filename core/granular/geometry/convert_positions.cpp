@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/geometry/positions.h"
 
+#include "granular/common/simd.h"
 #include "granular/geometry/exact_determinant.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define GRANULAR_FMA 1
-#endif
 
 namespace granular
 {
@@ -284,13 +281,7 @@ bool places_scaled(const Conversion& c) noexcept
   }
 }
 
-#if GRANULAR_FMA
-bool has_avx2() noexcept
-{
-  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has;
-}
-
+#if GRANULAR_X86
 /// The same operations; std::fma is an instruction here and a function call there.
 __attribute__((target("avx2,fma"))) void convert_avx2(
   const Conversion& c, std::span<const double> images, std::span<double> points) noexcept
@@ -334,8 +325,8 @@ bool changes_points(const PositionPlan& plan, const Vector3& point_origin) noexc
 
 void scale_aligned(const Box& box, std::size_t axis, std::span<double> coordinates) noexcept
 {
-#if GRANULAR_FMA
-  if (has_avx2())
+#if GRANULAR_X86
+  if (best_simd() != Simd::Portable)
   {
     scale_avx2(box, axis, coordinates);
     return;
@@ -354,8 +345,8 @@ void convert_positions(const PositionPlan& plan, const Box& box, const Vector3& 
   {
     return;
   }
-#if GRANULAR_FMA
-  if (has_avx2())
+#if GRANULAR_X86
+  if (best_simd() != Simd::Portable)
   {
     convert_avx2(conversion, images, points);
     return;
