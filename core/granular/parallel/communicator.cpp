@@ -37,6 +37,22 @@ struct Failure
   std::errc code = {};
 };
 
+template <class Known>
+bool is(const Error& error) noexcept
+{
+  return dynamic_cast<const Known*>(&error) != nullptr;
+}
+
+Kind kind_of(const Error& error) noexcept
+{
+  return is<IoError>(error)       ? Kind::Io
+    : is<FormatError>(error)      ? Kind::Format
+    : is<MemoryError>(error)      ? Kind::Memory // before what it is, too
+    : is<LimitError>(error)       ? Kind::Limit
+    : is<UnsupportedError>(error) ? Kind::Unsupported
+                                  : Kind::Other;
+}
+
 Failure describe(const std::exception_ptr& failure)
 {
   try
@@ -47,29 +63,10 @@ Failure describe(const std::exception_ptr& failure)
   {
     return { Kind::Cancelled };
   }
-  catch (const IoError& error)
-  {
-    return { Kind::Io, error.text(), error.where(), error.code() };
-  }
-  catch (const FormatError& error)
-  {
-    return { Kind::Format, error.text(), error.where() };
-  }
-  catch (const MemoryError& error)
-  {
-    return { Kind::Memory, error.text(), error.where() };
-  }
-  catch (const LimitError& error)
-  {
-    return { Kind::Limit, error.text(), error.where() };
-  }
-  catch (const UnsupportedError& error)
-  {
-    return { Kind::Unsupported, error.text(), error.where() };
-  }
   catch (const Error& error)
   {
-    return { Kind::Other, error.text(), error.where() };
+    const auto* const io = dynamic_cast<const IoError*>(&error);
+    return { kind_of(error), error.text(), error.where(), io ? io->code() : std::errc{} };
   }
   catch (const std::bad_alloc&)
   {
