@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <thread>
 
@@ -496,6 +497,18 @@ TEST(CInterface, FindsFilesInTheOrderOfTheirNumbers)
   EXPECT_EQ(granular_name_at(names, 4), good("pieces_1000.0.dump"));
   EXPECT_EQ(granular_name_at(names, 12), nullptr);
   granular_free_names(names);
+}
+
+TEST(CInterface, AFileOfWhichTheSystemDoesNotTellIsAnError)
+{
+  const std::string link = std::string(GRANULAR_OUTPUT) + "/circle_5.dump";
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(link, link);
+  granular_names* names = nullptr;
+  const std::string pattern = std::string(GRANULAR_OUTPUT) + "/circle_*.dump";
+  const char* const text = pattern.c_str();
+  EXPECT_EQ(granular_find_files(&text, 1, &names), GRANULAR_IO_ERROR);
+  EXPECT_NE(message().find("cannot tell whether this is a file"), std::string::npos) << message();
 }
 
 TEST(CInterface, Version)

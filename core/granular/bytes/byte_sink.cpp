@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_sink.h"
 
-#include "granular/common/error.h"
+#include "granular/bytes/system_calls.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace granular
@@ -89,26 +87,23 @@ private:
 
 Descriptor open_existing(const std::string& name, int flags)
 {
-  int file = -1;
-  do
-  {
-    file = ::open(name.c_str(), flags | O_CLOEXEC);
-  } while (file < 0 && errno == EINTR);
-  return Descriptor(file);
+  return Descriptor(call_again([&] { return ::open(name.c_str(), flags | O_CLOEXEC); }));
 }
 
 /// 0, or the reason. Some file systems keep nothing, or cannot tell.
 int sync(int file) noexcept
 {
-  while (::fsync(file) != 0)
-  {
-    if (errno != EINTR)
-    {
-      const bool cannot = errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
-      return cannot ? 0 : errno;
-    }
-  }
-  return 0;
+  const bool done = call_again([&] { return ::fsync(file); }) == 0;
+  return done || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS ? 0 : errno;
+}
+
+template <class Work>
+void with_existing(const std::string& name, const std::string& path, const Work& work)
+{
+  Descriptor file = open_existing(name, O_WRONLY);
+  check(file.get() < 0 ? errno : 0, path);
+  work(file.get());
+  check(file.close(), path);
 }
 
 /// The path behind all symbolic links, there or not, where the folders before it are left as they are.
@@ -201,10 +196,8 @@ void NewFile::create(Locking locking)
   {
     name_ += LockedFile::data_ending;
     ::unlink(name_.c_str()); // nobody else may have it: the lock is this object's
-    do
-    {
-      file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    } while (file_ < 0 && errno == EINTR);
+    file_ = call_again(
+      [&] { return ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode); });
     check(file_ < 0 ? errno : 0, path_);
   }
 }
@@ -350,17 +343,11 @@ void NewFile::finish(bool durable)
 void write_into(
   const std::string& name, std::int64_t offset, std::string_view bytes, const std::string& path)
 {
-  Descriptor file = open_existing(name, O_WRONLY);
-  check(file.get() < 0 ? errno : 0, path);
-  pwrite_all(file.get(), offset, bytes, path);
-  check(file.close(), path);
+  with_existing(name, path, [&](int file) { pwrite_all(file, offset, bytes, path); });
 }
 
 void sync_file(const std::string& name, const std::string& path)
 {
-  Descriptor file = open_existing(name, O_WRONLY);
-  check(file.get() < 0 ? errno : 0, path);
-  check(sync(file.get()), path);
-  check(file.close(), path);
+  with_existing(name, path, [&](int file) { check(sync(file), path); });
 }
 }

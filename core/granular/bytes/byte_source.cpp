@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source.h"
 
-#include "granular/bytes/no_file.h"
-#include "granular/common/error.h"
+#include "granular/bytes/system_calls.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace granular
@@ -23,19 +20,6 @@ namespace
   const std::string reason = std::generic_category().message(error);
   throw IoError(
     std::string("cannot ") + action + ": " + reason, { path }, static_cast<std::errc>(error));
-}
-
-/// Makes a call of the system again when a signal has interrupted it, but not for ever. Returns what the call returns.
-template <class Call>
-auto call_again(const Call& call)
-{
-  constexpr int most = 100;
-  auto result = call();
-  for (int i = 1; i < most && result < 0 && errno == EINTR; ++i)
-  {
-    result = call();
-  }
-  return result;
 }
 
 /// ByteSource::read from bytes in memory.
@@ -69,13 +53,7 @@ public:
   const std::string& path() const override { return path_; }
   bool concurrent() const override { return true; }
 
-  FileStamp stamp() const override
-  {
-    const struct stat status = this->status();
-    return { status.st_size,
-      std::int64_t{ status.st_mtim.tv_sec } * 1'000'000'000 + status.st_mtim.tv_nsec, status.st_ino,
-      status.st_dev };
-  }
+  FileStamp stamp() const override { return stamp_of_status(this->status()); }
 
   std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
   {

@@ -51,6 +51,7 @@ public:
   void expect(const SeekPoints::Point& point) override;
 
 private:
+  std::size_t decompress(char* out, std::size_t bytes);
   void begin_frame();
   void read_header();
   void count_content(std::size_t bytes, bool ended);
@@ -85,23 +86,29 @@ std::size_t ZstdDecoder::decode(char* out, std::size_t bytes)
     {
       this->begin_frame();
     }
-    ZSTD_inBuffer input{ in_.data(), in_.size(), 0 };
-    ZSTD_outBuffer output{ out, bytes, 0 };
-    const std::size_t status = ZSTD_decompressStream(stream_.get(), &output, &input);
-    if (ZSTD_isError(status))
+    if (const std::size_t got = this->decompress(out, bytes); got > 0)
     {
-      this->fail_with(status); // at the first byte that was handed in: input.pos means nothing then
-    }
-    in_.skip(input.pos);
-    offset_ += static_cast<std::int64_t>(output.pos);
-    flushed_ = output.pos < output.size;
-    in_frame_ = status != 0;
-    this->count_content(output.pos, !in_frame_);
-    if (output.pos > 0)
-    {
-      return output.pos;
+      return got;
     }
   }
+}
+
+/// Decompresses what is in the buffer. Returns the bytes of content.
+std::size_t ZstdDecoder::decompress(char* out, std::size_t bytes)
+{
+  ZSTD_inBuffer input{ in_.data(), in_.size(), 0 };
+  ZSTD_outBuffer output{ out, bytes, 0 };
+  const std::size_t status = ZSTD_decompressStream(stream_.get(), &output, &input);
+  if (ZSTD_isError(status))
+  {
+    this->fail_with(status); // at the first byte that was handed in: input.pos means nothing then
+  }
+  in_.skip(input.pos);
+  offset_ += static_cast<std::int64_t>(output.pos);
+  flushed_ = output.pos < output.size;
+  in_frame_ = status != 0;
+  this->count_content(output.pos, !in_frame_);
+  return output.pos;
 }
 
 /// A frame that was decompressed may still have its sum to come.
@@ -110,16 +117,7 @@ void ZstdDecoder::expect(const SeekPoints::Point&)
   char none = 0;
   for (int tries = 0; tries < 3 && in_frame_ && in_.more(); ++tries)
   {
-    ZSTD_inBuffer input{ in_.data(), in_.size(), 0 };
-    ZSTD_outBuffer output{ &none, 0, 0 };
-    const std::size_t status = ZSTD_decompressStream(stream_.get(), &output, &input);
-    if (ZSTD_isError(status))
-    {
-      this->fail_with(status);
-    }
-    in_.skip(input.pos);
-    in_frame_ = status != 0;
-    this->count_content(0, !in_frame_);
+    this->decompress(&none, 0);
   }
   if (in_frame_)
   {

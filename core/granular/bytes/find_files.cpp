@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/find_files.h"
 
-#include "granular/bytes/no_file.h"
-#include "granular/common/error.h"
+#include "granular/bytes/system_calls.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <system_error>
 
@@ -38,15 +38,11 @@ bool is_before(std::string_view a, std::string_view b) noexcept
   std::size_t j = 0;
   while (i < a.size() && j < b.size())
   {
-    if (is_digit(a[i]) != is_digit(b[j]))
-    {
-      return is_digit(b[j]);
-    }
-    if (!is_digit(a[i]))
+    if (!is_digit(a[i]) || !is_digit(b[j]))
     {
       if (a[i] != b[j])
       {
-        return a[i] < b[j];
+        return is_digit(a[i]) == is_digit(b[j]) ? a[i] < b[j] : is_digit(b[j]);
       }
       ++i;
       ++j;
@@ -164,22 +160,35 @@ std::string shell_pattern(const std::string& pattern)
   throw IoError("no file fits the pattern", { pattern }, std::errc::no_such_file_or_directory);
 }
 
+/// Returns true if a name that a pattern fits is that of a file, perhaps behind links. Throws IoError if the system does not tell.
+bool is_fitting_file(const std::string& name)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(name, error);
+  if (status.type() == fs::file_type::none)
+  {
+    throw IoError("cannot tell whether this is a file: " + error.message(), { name },
+      static_cast<std::errc>(error.value()));
+  }
+  return fs::is_regular_file(status);
+}
+
 /// Appends the files that a pattern of the shell fits.
 void add_files(const std::string& pattern, std::vector<std::string>& names)
 {
   glob_t found = {};
+  const std::unique_ptr<glob_t, decltype(&::globfree)> free(&found, ::globfree);
   if (::glob(pattern.c_str(), GLOB_NOESCAPE | GLOB_NOSORT, nullptr, &found) == 0)
   {
     for (std::size_t i = 0; i < found.gl_pathc; ++i)
     {
       const std::string name = found.gl_pathv[i];
-      if (!is_beside(last_part(name)) && is_file(name))
+      if (!is_beside(last_part(name)) && is_fitting_file(name))
       {
         names.push_back(name);
       }
     }
   }
-  ::globfree(&found);
 }
 }
 

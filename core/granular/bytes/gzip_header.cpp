@@ -11,22 +11,20 @@ namespace granular
 namespace
 {
 /// The fields of a member's header, with the CRC of what was read of it.
-class HeaderBytes
+struct HeaderBytes
 {
-public:
-  HeaderBytes(PackedInput& in, const Inflate& inflate)
-    : in_(in)
-    , inflate_(inflate)
-  {
-  }
+  PackedInput& in;
+  const Inflate& inflate;
+  std::uint32_t check = 0;
+  bool ended = false;
 
   /// 0 once the file has ended.
   unsigned get()
   {
-    const int next = in_.get();
-    ended_ = ended_ || next < 0;
-    const auto byte = static_cast<unsigned char>(ended_ ? 0 : next);
-    check_ = inflate_.check(check_, { reinterpret_cast<const char*>(&byte), 1 });
+    const int next = in.get();
+    ended = ended || next < 0;
+    const auto byte = static_cast<unsigned char>(ended ? 0 : next);
+    check = inflate.check(check, { reinterpret_cast<const char*>(&byte), 1 });
     return byte;
   }
 
@@ -38,27 +36,11 @@ public:
 
   void skip(unsigned bytes)
   {
-    for (; bytes > 0 && !ended_; --bytes)
+    for (; bytes > 0 && !ended; --bytes)
     {
       this->get();
     }
   }
-
-  void skip_text()
-  {
-    while (this->get() != 0)
-    {
-    }
-  }
-
-  bool ended() const noexcept { return ended_; }
-  unsigned check_16() const noexcept { return check_ & 0xffffu; }
-
-private:
-  PackedInput& in_;
-  const Inflate& inflate_;
-  std::uint32_t check_ = 0;
-  bool ended_ = false;
 };
 }
 
@@ -79,11 +61,11 @@ bool pass_gzip_header(PackedInput& in, const Inflate& inflate)
     has_comment = 16,
     reserved = 0xe0
   };
-  HeaderBytes header(in, inflate);
+  HeaderBytes header{ in, inflate };
   const Where where{ in.path(), 0, in.position() };
   for (const unsigned expected : { 0x1fu, 0x8bu, 0x08u })
   {
-    if (header.get() != expected && !header.ended())
+    if (header.get() != expected && !header.ended)
     {
       throw FormatError(
         "expected the end of the gzip data or more of them, got other bytes", where);
@@ -100,19 +82,17 @@ bool pass_gzip_header(PackedInput& in, const Inflate& inflate)
   {
     header.skip(header.get_16());
   }
-  if ((flags & has_name) != 0)
+  for (const unsigned text : { has_name, has_comment })
   {
-    header.skip_text();
+    while ((flags & text) != 0 && header.get() != 0)
+    {
+    }
   }
-  if ((flags & has_comment) != 0)
-  {
-    header.skip_text();
-  }
-  const unsigned check = header.check_16();
-  if ((flags & has_check) != 0 && header.get_16() != check && !header.ended())
+  const unsigned check = header.check & 0xffff;
+  if ((flags & has_check) != 0 && header.get_16() != check && !header.ended)
   {
     throw FormatError("expected a gzip header that fits its CRC, got another", where);
   }
-  return !header.ended();
+  return !header.ended;
 }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/locked_file.h"
 
+#include "granular/bytes/system_calls.h"
 #include "granular/common/hash.h"
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -14,7 +14,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace granular
@@ -59,27 +58,14 @@ int compare_name(const std::string& name, int file) noexcept
 /// Returns nothing if there is no such file.
 FileStamp look_at(const std::string& name) noexcept
 {
-  constexpr std::int64_t nanoseconds = 1'000'000'000; // of a second
   struct stat there = {};
-  if (::lstat(name.c_str(), &there) != 0)
-  {
-    return {};
-  }
-  return { there.st_size, there.st_mtim.tv_sec * nanoseconds + there.st_mtim.tv_nsec, there.st_ino,
-    there.st_dev };
+  return ::lstat(name.c_str(), &there) == 0 ? stamp_of_status(there) : FileStamp{};
 }
 
 /// 0, or the reason. A lock is that of the open file: a thread keeps out the others of its program, too.
 int lock(int file)
 {
-  while (::flock(file, LOCK_EX | LOCK_NB) != 0)
-  {
-    if (errno != EINTR)
-    {
-      return errno;
-    }
-  }
-  return 0;
+  return call_again([&] { return ::flock(file, LOCK_EX | LOCK_NB); }) == 0 ? 0 : errno;
 }
 
 /// Removes the files and folders in a folder whose names begin like this, as far as the system tells them.
