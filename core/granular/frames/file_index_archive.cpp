@@ -67,52 +67,45 @@ void visit_file(Archive& archive, File& file)
 }
 
 /// The kinds of the frames of all files, numbered.
-class KindTable
+struct KindTable
 {
-public:
-  explicit KindTable(const std::vector<FileIndex>& files)
+  std::vector<const FrameKind*> kinds = {};
+  std::map<const FrameKind*, std::uint64_t> numbers = {};
+};
+
+KindTable number_kinds(const std::vector<FileIndex>& files)
+{
+  KindTable table;
+  for (const FileIndex& file : files)
   {
-    for (const FileIndex& file : files)
+    for (const FrameEntry& frame : file.frames)
     {
-      for (const FrameEntry& frame : file.frames)
+      if (table.numbers.try_emplace(frame.kind.get(), table.kinds.size()).second)
       {
-        this->number_of(*frame.kind);
+        table.kinds.push_back(frame.kind.get());
       }
     }
   }
+  return table;
+}
 
-  std::uint64_t number_of(const FrameKind& kind)
-  {
-    const auto [place, added] = numbers_.try_emplace(&kind, kinds_.size());
-    if (added)
+void write_kinds(ArchiveWriter& out, const std::vector<const FrameKind*>& kinds)
+{
+  out.list(kinds,
+    [&](const FrameKind* kind)
     {
-      kinds_.push_back(&kind);
-    }
-    return place->second;
-  }
-
-  void write(ArchiveWriter& out) const
-  {
-    out.list(kinds_,
-      [&](const FrameKind* kind)
-      {
-        out.text(kind->units);
-        out.number(std::int32_t{ kind->layout });
-        out.flag(kind->named);
-        out.flag(kind->guessed);
-        out.list(kind->schema.columns(),
-          [&](const ColumnInfo& column)
-          {
-            out.text(column.name);
-            out.flag(!column.known && column.type == ValueType::Text);
-          });
-      });
-  }
-
-private:
-  std::vector<const FrameKind*> kinds_;
-  std::map<const FrameKind*, std::uint64_t> numbers_;
-};
+      out.text(kind->units);
+      out.number(std::int32_t{ kind->layout });
+      out.flag(kind->named);
+      out.flag(kind->guessed);
+      out.list(kind->schema.columns(),
+        [&](const ColumnInfo& column)
+        {
+          out.text(column.name);
+          out.flag(!column.known && column.type == ValueType::Text);
+        });
+    });
+}
 
 /// A column; its type follows from the name, where that is known, and else from the first row.
 struct KeptColumn
@@ -178,16 +171,6 @@ Kinds read_kinds(ArchiveReader& in, FrameKinds& store)
   return kinds;
 }
 
-void write_frames(ArchiveWriter& out, const std::vector<FrameEntry>& frames, KindTable& kinds)
-{
-  out.list(frames,
-    [&](const FrameEntry& frame)
-    {
-      out.number(FrameRecord{ frame.timestep, frame.rows, frame.offset, frame.end, frame.line,
-        frame.time, frame.shape, kinds.number_of(*frame.kind) });
-    });
-}
-
 void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
 {
   visit_file(in, file);
@@ -206,13 +189,18 @@ void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
 std::string encode_files(const std::vector<FileIndex>& files)
 {
   ArchiveWriter out;
-  KindTable kinds(files);
-  kinds.write(out);
+  const KindTable table = number_kinds(files);
+  write_kinds(out, table.kinds);
   out.list(files,
     [&](const FileIndex& file)
     {
       visit_file(out, file);
-      write_frames(out, file.frames, kinds);
+      out.list(file.frames,
+        [&](const FrameEntry& frame)
+        {
+          out.number(FrameRecord{ frame.timestep, frame.rows, frame.offset, frame.end, frame.line,
+            frame.time, frame.shape, table.numbers.at(frame.kind.get()) });
+        });
     });
   return std::move(out.bytes);
 }

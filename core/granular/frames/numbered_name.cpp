@@ -1,26 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/numbered_name.h"
 
+#include "granular/numbers/number_scan.h"
+
 #include <algorithm>
 
 namespace granular
 {
-namespace
-{
-constexpr bool is_digit(char c) noexcept
-{
-  return c >= '0' && c <= '9';
-}
-}
-
 NumberedName split_name(std::string_view path)
 {
   for (const std::string_view suffix : { ".gz", ".zst" })
   {
     path = path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
   }
-  const std::size_t slash = path.rfind('/');
-  const std::size_t start = slash == path.npos ? 0 : slash + 1;
+  const std::size_t start = path.rfind('/') + 1; // 0 without a slash
   NumberedName name = { std::string(path.substr(0, start)), {} };
   for (const char *at = path.data() + start, *end = path.data() + path.size(); at < end;)
   {

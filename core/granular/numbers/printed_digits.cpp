@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/numbers/printed_digits.h"
 
+#include "granular/numbers/number_scan.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,6 @@ namespace granular
 int digits_of(std::string_view word) noexcept
 {
   word = word.substr(0, word.find_first_of("eE"));
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const std::size_t first = word.find_first_of("123456789");
   return first == word.npos ? 0
                             : static_cast<int>(std::ranges::count_if(word.substr(first), is_digit));

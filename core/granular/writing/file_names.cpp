@@ -21,8 +21,7 @@ bool ends_with(std::string_view path, std::string_view end) noexcept
 /// Returns the place where the file name begins.
 std::size_t begin_of_name(const std::string& path) noexcept
 {
-  const std::size_t slash = path.rfind('/');
-  return slash == path.npos ? 0 : slash + 1;
+  return path.rfind('/') + 1; // 0 without a slash
 }
 
 std::string replace_first(const std::string& path, char mark, const std::string& text)
