@@ -160,9 +160,9 @@ TEST(WriteChunks, rows_far_behind)
   for (const std::int64_t first :
     { full - 1, full - 1024, full - 1025, full - 1500, full, 2 * full - 7, 2 * full - 2999 })
   {
-    const RowEncoder encoder{ frame, plan, made.box, format, chunks, first, first };
+    const RowsToEncode rows{ frame, plan, made.box, format, chunks, first, first };
     const Executor executor(2);
-    RowBatches batches(encoder, executor);
+    RowBatches batches(rows, executor);
     Progress progress;
     std::string bytes;
     while (batches.next(progress))

@@ -4,12 +4,8 @@
 #include "../support/dumps.h"
 #include "../support/reference_dump.h"
 
-#include "granular/dump/write/row_buffer.h"
-
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -164,32 +160,4 @@ TEST(WriteForms, bounding_box_of_a_tilted_box)
     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
     "-2 13 -3\n2 14 2\n3 8 4\nITEM: ATOMS id type xs ys zs\n"
     "1 1 0 0 0\n2 1 1 1 1\n3 2 0.5 0.5 0.5\n");
-}
-
-/// The buffer of dump atom grows in steps of 2^20.
-TEST(WriteForms, row_buffer)
-{
-  RowBuffer buffer;
-  std::string expected;
-  std::size_t capacity = 0;
-  for (int i = 0; i < 3000; ++i)
-  {
-    const std::string row(static_cast<std::size_t>(1 + i % 2000), static_cast<char>('a' + i % 26));
-    std::memcpy(buffer.room(row.size()), row.data(), row.size());
-    buffer.add(row.size());
-    expected += row;
-    if (buffer.capacity() != capacity)
-    {
-      EXPECT_GE(buffer.capacity() - capacity, std::size_t{ 1 } << 20);
-      EXPECT_EQ(buffer.capacity() % (std::size_t{ 1 } << 20), 0U);
-      capacity = buffer.capacity();
-    }
-  }
-  EXPECT_GT(capacity, std::size_t{ 1 } << 21);
-  EXPECT_TRUE(buffer.bytes() == expected);
-  buffer.clear();
-  EXPECT_EQ(buffer.size(), 0U);
-  EXPECT_EQ(buffer.capacity(), capacity);
-  EXPECT_THROW(buffer.room(std::numeric_limits<std::size_t>::max()), std::bad_alloc);
-  EXPECT_EQ(buffer.capacity(), capacity);
 }

@@ -14,10 +14,8 @@ DumpFormat format_of_name(
   DumpFormat format;
   format.binary = is_binary_name(path);
   format.compression = compression_of_name(path);
-  for (const std::string_view name : split_words(columns))
-  {
-    format.columns.emplace_back(name);
-  }
+  const std::vector<std::string_view> names = split_words(columns);
+  format.columns.assign(names.begin(), names.end());
   format.numbers = parse_number_format(numbers.empty() ? "Automatic" : numbers);
   return format;
 }
@@ -60,5 +58,28 @@ void check_format(const DumpFormat& format, const std::string& path)
         word + "'",
       { path });
   }
+}
+
+std::vector<std::string> atom_columns(const AtomForm& form)
+{
+  const std::string columns = std::string("id type ") + (form.scaled ? "xs ys zs" : "x y z") +
+    (form.image ? " ix iy iz" : "");
+  const std::vector<std::string_view> names = split_words(columns);
+  return { names.begin(), names.end() };
+}
+
+FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header)
+{
+  FrameView frame;
+  frame.header = header;
+  frame.rows = atoms.rows;
+  frame.points = view_rows("points", ValueType::Float64, atoms.positions, 3);
+  frame.arrays.push_back(view_rows("id", ValueType::Int64, atoms.ids));
+  frame.arrays.push_back(view_rows("type", ValueType::Int32, atoms.types));
+  if (atoms.images)
+  {
+    frame.arrays.push_back(view_rows("image", ValueType::Int32, atoms.images, 3));
+  }
+  return frame;
 }
 }

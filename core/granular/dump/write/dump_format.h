@@ -2,9 +2,9 @@
 #ifndef granular_dump_write_dump_format_h
 #define granular_dump_write_dump_format_h
 
-#include "granular/dump/write/atom_rows.h"
 #include "granular/frames/frame.h"
 #include "granular/numbers/number_print.h"
+#include "granular/particles/frame_view.h"
 #include "granular/writing/file_names.h"
 
 #include <cstdint>
@@ -21,6 +21,13 @@ enum class DumpStyle : std::uint8_t
   Atom,   ///< dump atom: the columns of an AtomForm
   Custom, ///< dump custom: any columns
   Local   ///< dump local: rows of any arrays, not particles; text only
+};
+
+/// The columns of dump atom. With tilted or orthogonal boxes, as text or binary, it has 16 forms.
+struct AtomForm
+{
+  bool scaled = true; ///< xs ys zs; false: x y z
+  bool image = false; ///< also ix iy iz
 };
 
 /// The format of a dump to write.
@@ -56,5 +63,21 @@ void check_format(const DumpFormat& format, const std::string& path);
 /// Returns the dialect of a dump whose first frame has this header: LAMMPS if the other dialect lacks a wanted feature, such
 /// as units, a time, or column names in a binary dump made from text.
 Dialect choose_dialect(const DumpFormat& format, const FrameHeader& header) noexcept;
+
+/// Returns "id type xs ys zs", "id type x y z ix iy iz", ...
+std::vector<std::string> atom_columns(const AtomForm& form);
+
+/// The atoms of one rank, in the arrays of a simulation code.
+struct AtomRows
+{
+  std::int64_t rows = 0;
+  const std::int64_t* ids = nullptr;
+  const std::int32_t* types = nullptr;
+  const double* positions = nullptr;    ///< x y z of each atom, in the box
+  const std::int32_t* images = nullptr; ///< three for each atom; null: all are 0
+};
+
+/// Returns the frame of these atoms.
+FrameView view_atoms(const AtomRows& atoms, const FrameHeader& header);
 }
 #endif

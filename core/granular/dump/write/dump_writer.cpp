@@ -86,7 +86,10 @@ void DumpWriter::File::append_rows(std::string_view header, RowBatches& rows, Pr
   }
   while (rows.next(progress))
   {
-    appender->append(rows.bytes());
+    for (const std::string_view part : rows.bytes())
+    {
+      appender->append(part);
+    }
   }
 }
 
@@ -323,9 +326,9 @@ void DumpWriter::write_rows(
   const PrintLoss printed(plan.columns, plan.header.box, format_, plan.smallest_radius);
   const std::string header =
     encode_header(plan.header, names, format_, chunks, file_->first, printed.of_box());
-  const RowEncoder encoder{ view, plan.columns, plan.header.box, format_, chunks, before,
+  const RowsToEncode encoded{ view, plan.columns, plan.header.box, format_, chunks, before,
     own ? 0 : before, printed };
-  RowBatches rows(encoder, file_->executor);
+  RowBatches rows(encoded, file_->executor);
 
   agree(ranks_, nullptr); // or the first rank would wait for the rows of one that has failed
   switch (file_->way)

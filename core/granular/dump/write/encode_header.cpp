@@ -5,12 +5,10 @@
 #include "granular/common/words.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace granular
 {
@@ -18,73 +16,30 @@ namespace
 {
 constexpr std::int64_t most_int32 = std::numeric_limits<std::int32_t>::max();
 
-class TextHeaderWriter
-{
-public:
-  TextHeaderWriter(Dialect dialect, NumberFormat box)
-    : dialect_(dialect)
-    , box_(box)
-  {
-  }
-
-  void line(std::string_view text)
-  {
-    text_ += text;
-    text_ += '\n';
-  }
-
-  void item(std::string_view name, std::string_view value)
-  {
-    this->line("ITEM: " + std::string(name));
-    this->line(value);
-  }
-
-  /// Numbers of the box in a line.
-  void numbers(std::initializer_list<double> values)
-  {
-    std::string_view gap;
-    for (const double value : values)
-    {
-      char word[most_number_chars];
-      char* const end = dialect_ == Dialect::Lammps
-        ? std::to_chars(word, word + sizeof word, value, std::chars_format::scientific, 16).ptr
-        : print_number(word, value, box_);
-      text_.append(gap).append(word, end);
-      gap = " ";
-    }
-    text_ += '\n';
-  }
-
-  std::string take() { return std::move(text_); }
-
-private:
-  Dialect dialect_;
-  NumberFormat box_; ///< of LIGGGHTS
-  std::string text_;
-};
-
-void add_box(TextHeaderWriter& writer, const Box& box)
+/// numbers: of LIGGGHTS.
+void add_box(std::string& text, const Box& box, bool lammps, NumberFormat numbers)
 {
   const BoxBounds b = box.bounds();
   const double tilts[] = { b.xy, b.xz, b.yz };
   const char* const form = box.general ? "abc origin " : box.tilted ? "xy xz yz " : "";
-  writer.line(std::string("ITEM: BOX BOUNDS ") + form + box.boundary);
+  text.append("ITEM: BOX BOUNDS ").append(form).append(box.boundary);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const Twofold3& edge = box.vectors[i];
-    if (box.general)
+    const auto [x, y, z] = values_of(box.vectors[i]);
+    const std::vector<double> line = box.general ? std::vector{ x, y, z, box.origin[i].value() }
+      : box.tilted                               ? std::vector{ b.lo[i], b.hi[i], tilts[i] }
+                                                 : std::vector{ b.lo[i], b.hi[i] };
+    const char* gap = "\n";
+    for (const double value : line)
     {
-      writer.numbers({ edge[0].value(), edge[1].value(), edge[2].value(), box.origin[i].value() });
-    }
-    else if (box.tilted)
-    {
-      writer.numbers({ b.lo[i], b.hi[i], tilts[i] });
-    }
-    else
-    {
-      writer.numbers({ b.lo[i], b.hi[i] });
+      char word[most_number_chars];
+      char* const end = lammps
+        ? std::to_chars(word, word + sizeof word, value, std::chars_format::scientific, 16).ptr
+        : print_number(word, value, numbers);
+      text.append(std::exchange(gap, " ")).append(word, end);
     }
   }
+  text += '\n';
 }
 
 /// With 16 digits, as LAMMPS prints it, and with 17 where that number would be another.
@@ -99,53 +54,47 @@ std::string encode_text(const FrameHeader& header, const std::vector<std::string
 {
   const bool lammps = format.dialect == Dialect::Lammps;
   const bool custom = format.style == DumpStyle::Custom;
-  TextHeaderWriter writer(lammps ? Dialect::Lammps : Dialect::Liggghts, box);
+  std::string text;
+  const auto item = [&](const std::string& name, const std::string& value)
+  { text += "ITEM: " + name + '\n' + value + '\n'; };
   if (lammps && format.units && first)
   {
-    writer.item("UNITS", header.units);
+    item("UNITS", header.units);
   }
   if (lammps && format.time)
   {
-    writer.item("TIME", time_text(header.time.value_or(0)));
+    item("TIME", time_text(header.time.value_or(0)));
   }
-  writer.item("TIMESTEP", std::to_string(header.timestep));
+  item("TIMESTEP", std::to_string(header.timestep));
   if (!lammps && custom && !header.box.tilted && !header.label.empty())
   {
-    writer.item("LABEL", header.label);
+    item("LABEL", header.label);
   }
-  writer.item("NUMBER OF " + header.counted, std::to_string(header.rows));
+  item("NUMBER OF " + header.counted, std::to_string(header.rows));
   if (header.has_box)
   {
-    add_box(writer, header.box);
+    add_box(text, header.box, lammps, box);
   }
-  writer.line("ITEM: " + header.counted + " " + join_words(columns) +
-    (has_trailing_blanks(format) ? " " : ""));
-  return writer.take();
+  return text + "ITEM: " + header.counted + " " + join_words(columns) +
+    (has_trailing_blanks(format) ? " \n" : "\n");
 }
 
-struct BinaryHeaderWriter : ArchiveWriter
+/// A 32-bit integer.
+void add_int(ArchiveWriter& writer, std::int64_t value)
 {
-  void int32(std::int64_t value) { this->number(static_cast<std::int32_t>(value)); }
+  writer.number(static_cast<std::int32_t>(value));
+}
 
-  void counted_text(std::string_view value)
+void add_text(ArchiveWriter& writer, const std::string& text)
+{
+  if (static_cast<std::int64_t>(text.size()) > most_int32)
   {
-    if (static_cast<std::int64_t>(value.size()) > most_int32)
-    {
-      throw LimitError("expected the names of the columns to have less than 2^31 bytes, got " +
-        std::to_string(value.size()));
-    }
-    this->int32(static_cast<std::int64_t>(value.size()));
-    bytes += value;
+    throw LimitError("expected the names of the columns to have less than 2^31 bytes, got " +
+      std::to_string(text.size()));
   }
-
-  void numbers(std::initializer_list<double> values)
-  {
-    for (const double value : values)
-    {
-      this->number(value);
-    }
-  }
-};
+  add_int(writer, static_cast<std::int64_t>(text.size()));
+  writer.bytes += text;
+}
 
 /// p, f, s, m as dumps number them; flags are "pp ff sm".
 std::int64_t flag_number(char flag)
@@ -155,28 +104,29 @@ std::int64_t flag_number(char flag)
   return found == flags.npos ? 1 : static_cast<std::int64_t>(found);
 }
 
-void add_box(BinaryHeaderWriter& writer, const Box& box)
+void add_box(ArchiveWriter& writer, const Box& box)
 {
-  writer.int32(box.general ? 2 : box.tilted ? 1 : 0);
-  constexpr std::size_t places[] = { 0, 1, 3, 4, 6, 7 };
-  for (const std::size_t place : places)
+  add_int(writer, box.general ? 2 : box.tilted ? 1 : 0);
+  for (const std::size_t place : { 0U, 1U, 3U, 4U, 6U, 7U })
   {
-    writer.int32(flag_number(place < box.boundary.size() ? box.boundary[place] : 'f'));
+    add_int(writer, flag_number(place < box.boundary.size() ? box.boundary[place] : 'f'));
   }
   if (box.general)
   {
-    for (const Twofold3& edge : box.vectors)
-    {
-      writer.numbers({ edge[0].value(), edge[1].value(), edge[2].value() });
-    }
-    writer.numbers({ box.origin[0].value(), box.origin[1].value(), box.origin[2].value() });
+    std::ranges::for_each(
+      box.vectors, [&](const Twofold3& edge) { writer.number(values_of(edge)); });
+    writer.number(values_of(box.origin));
     return;
   }
   const BoxBounds b = box.bounds();
-  writer.numbers({ b.lo[0], b.hi[0], b.lo[1], b.hi[1], b.lo[2], b.hi[2] });
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    writer.number(b.lo[axis]);
+    writer.number(b.hi[axis]);
+  }
   if (box.tilted)
   {
-    writer.numbers({ b.xy, b.xz, b.yz });
+    writer.number(Vector3{ b.xy, b.xz, b.yz });
   }
 }
 
@@ -184,14 +134,14 @@ std::string encode_binary(const FrameHeader& header, const std::vector<std::stri
   const DumpFormat& format, const ChunkLengths& chunks, bool first)
 {
   const bool magic = format.dialect == Dialect::Lammps;
-  BinaryHeaderWriter writer;
+  ArchiveWriter writer;
   if (magic)
   {
     const std::string_view name = format.style == DumpStyle::Atom ? "DUMPATOM" : "DUMPCUSTOM";
     writer.number(-static_cast<std::int64_t>(name.size()));
     writer.bytes += name;
-    writer.int32(1); // of this byte order
-    writer.int32(2); // revision
+    add_int(writer, 1); // of this byte order
+    add_int(writer, 2); // revision
   }
   else if (header.timestep < 0)
   {
@@ -201,21 +151,21 @@ std::string encode_binary(const FrameHeader& header, const std::vector<std::stri
   writer.number(header.timestep);
   writer.number(header.rows);
   add_box(writer, header.box);
-  writer.int32(static_cast<std::int64_t>(columns.size()));
+  add_int(writer, static_cast<std::int64_t>(columns.size()));
   if (magic)
   {
-    writer.counted_text(format.units && first ? header.units : "");
+    add_text(writer, format.units && first ? header.units : "");
     writer.number(static_cast<char>(format.time ? 1 : 0));
     if (format.time)
     {
       writer.number(header.time.value_or(0));
     }
-    writer.counted_text(join_words(columns));
+    add_text(writer, join_words(columns));
   }
-  writer.int32(chunks.chunks());
+  add_int(writer, chunks.chunks());
   if (header.rows == 0)
   {
-    writer.int32(0); // of the one chunk that there is, which no row begins
+    add_int(writer, 0); // of the one chunk that there is, which no row begins
   }
   return std::move(writer.bytes);
 }

@@ -2,8 +2,8 @@
 #include "granular/dump/write/frame_plan.h"
 
 #include "granular/common/words.h"
-#include "granular/dump/write/grain_bounds.h"
 #include "granular/dump/write/row_batches.h"
+#include "granular/dump/write/row_values.h"
 #include "granular/dump/write/table_columns.h"
 #include "granular/frames/header_archive.h"
 #include "granular/parallel/gather.h"
@@ -41,32 +41,25 @@ struct Survey
   std::int64_t kept = 0;
   std::int64_t arrays = 0; ///< a rank without rows and arrays knows nothing
   bool has_box = false;
-  GrainBounds bounds = {};  ///< where there is no box
-  double radius = HUGE_VAL; ///< the smallest, where numbers may lose digits
+  Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL };    ///< of the grains, where there is no box
+  Vector3 hi = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< of the grains
+  double radius = HUGE_VAL;                         ///< the smallest, where numbers may lose digits
 };
 
-/// Facts that the leading rank tells the others: the header, and the columns without their values.
-struct Lead
-{
-  FrameHeader header;
-  ColumnPlan columns;
-  Notices notices;
-};
-
+/// What the leading rank tells the others: the header, and the columns without their values.
 template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<Lead>& lead)
+void pass(Archive& archive, typename Archive::template Passed<FramePlan>& plan)
 {
   const auto there_or_not = [](auto&) {};
-  pass(archive, lead.header);
-  pass(archive, lead.columns.columns);
-  for (auto& image : lead.columns.images)
+  pass(archive, plan.header);
+  pass(archive, plan.columns.columns);
+  for (auto& image : plan.columns.images)
   {
     archive.perhaps(image, there_or_not);
   }
-  archive.perhaps(lead.columns.ids, there_or_not);
-  archive.number(lead.columns.binary);
-  archive.number(lead.columns.wraps);
-  pass(archive, lead.notices);
+  archive.perhaps(plan.columns.ids, there_or_not);
+  archive.number(plan.columns.binary);
+  archive.number(plan.columns.wraps);
 }
 
 bool is_table(const DumpFormat& format) noexcept
@@ -94,16 +87,53 @@ bool may_lose_digits(const DumpFormat& format) noexcept
   return !is_table(format) && !format.binary && format.numbers != automatic_numbers;
 }
 
-/// Makes one for particles where there is none.
-void choose_box(
-  Lead& lead, const FrameView& frame, const DumpFormat& format, const std::vector<Survey>& surveys)
+double radius_of(const RowValues::Column& column, std::size_t row) noexcept
 {
-  if (std::any_of(surveys.begin(), surveys.end(),
+  return column.type == ValueType::Int32 ? column.at<std::int32_t>(row)
+    : column.type == ValueType::Int64    ? static_cast<double>(column.at<std::int64_t>(row))
+                                         : column.at<double>(row);
+}
+
+/// Finds the bounds of the spheres, or of the points without radii; duplicates and points that are not finite are ignored.
+void find_bounds(const FrameView& frame, Survey& survey)
+{
+  std::vector<std::string> names = { "x", "y", "z" };
+  const std::optional<ValueSource> radii = find_values(frame, "radius");
+  if (radii && radii->type != ValueType::Text)
+  {
+    names.emplace_back("radius");
+  }
+  Notices none;
+  const ColumnPlan plan = plan_columns(names, frame, true, none);
+  RowValues values;
+  constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
+  for (std::int64_t first = 0; first < frame.rows; first += most)
+  {
+    values.load(frame, plan, {}, first, std::min(most, frame.rows - first), 0);
+    for (std::size_t i = 0; i < 3 * values.rows(); ++i)
+    {
+      const std::size_t axis = i % 3;
+      const double x = values.columns()[axis].at<double>(i / 3);
+      const double r = names.size() > 3 ? radius_of(values.columns()[3], i / 3) : 0;
+      if (std::isfinite(x - r) && std::isfinite(x + r))
+      {
+        survey.lo[axis] = std::min(survey.lo[axis], x - r);
+        survey.hi[axis] = std::max(survey.hi[axis], x + r);
+      }
+    }
+  }
+}
+
+/// Makes one for particles where there is none, with boundaries that nothing crosses; at 0 without particles.
+void choose_box(FramePlan& plan, const FrameView& frame, const DumpFormat& format,
+  const std::vector<Survey>& surveys, Notices& notices)
+{
+  if (std::ranges::any_of(surveys,
         [&](const Survey& rank) { return rank.kept > 0 && rank.has_box != frame.has_box; }))
   {
     throw Error("expected a box on all ranks or on none, got one on some");
   }
-  lead.header.has_box = frame.has_box || !is_table(format);
+  plan.header.has_box = frame.has_box || !is_table(format);
   if (frame.has_box || is_table(format))
   {
     return;
@@ -112,10 +142,23 @@ void choose_box(
   {
     throw Error("expected a box for "s + to_string(frame.coordinates) + " points, got none");
   }
-  GrainBounds all;
-  std::for_each(surveys.begin(), surveys.end(), [&](const Survey& rank) { all.add(rank.bounds); });
-  lead.header.box = all.box();
-  lead.notices.push_back({ {}, "the input has no box: it is made from the bounds of the grains" });
+  Vector3 from = {};
+  Vector3 to = {};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double lo = HUGE_VAL;
+    double hi = -HUGE_VAL;
+    for (const Survey& rank : surveys)
+    {
+      lo = std::min(lo, rank.lo[axis]);
+      hi = std::max(hi, rank.hi[axis]);
+    }
+    from[axis] = lo <= hi ? lo : 0;
+    to[axis] = lo <= hi ? hi : 0;
+  }
+  plan.header.box = Box::from_bounds(from, to);
+  plan.header.box.boundary = "ff ff ff";
+  notices.push_back({ {}, "the input has no box: it is made from the bounds of the grains" });
 }
 
 std::vector<std::string> choose_names(
@@ -191,32 +234,32 @@ void check_line(const std::string& text, const char* what)
 }
 
 /// Checks that the frame has what the format asks for.
-void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
+void check_frame(const FramePlan& plan, const DumpFormat& format, Notices& notices)
 {
-  const Box& box = lead.header.box;
-  const auto& columns = lead.columns.columns;
+  const Box& box = plan.header.box;
+  const auto& columns = plan.columns.columns;
   const bool scaled = std::any_of(columns.begin(), columns.end(), is_scaled);
-  if (scaled || lead.columns.wraps)
+  if (scaled || plan.columns.wraps)
   {
     check_volume(box);
   }
-  check_line(lead.header.label, "the label");
-  check_line(lead.header.units, "the units");
+  check_line(plan.header.label, "the label");
+  check_line(plan.header.units, "the units");
   check_bounds(box);
-  const bool lammps = lead.header.dialect == Dialect::Lammps; // the other has neither
-  if (lammps && format.units && lead.header.units.empty())
+  const bool lammps = plan.header.dialect == Dialect::Lammps; // the other has neither
+  if (lammps && format.units && plan.header.units.empty())
   {
     throw Error("expected the units of the frame for ITEM: UNITS, got none");
   }
-  if (lammps && format.time && !lead.header.time)
+  if (lammps && format.time && !plan.header.time)
   {
     throw Error("expected the time of the frame for ITEM: TIME, got none");
   }
-  if (format.sort_by_id && !lead.columns.ids)
+  if (format.sort_by_id && !plan.columns.ids)
   {
     notices.push_back({ {}, "no integer array 'id': the rows are not sorted" });
   }
-  if (box.boundary.empty() && lead.header.has_box)
+  if (box.boundary.empty() && plan.header.has_box)
   {
     notices.push_back(
       { {}, "the boundaries of the box are not known: they are written as ff ff ff" });
@@ -229,19 +272,19 @@ void check_frame(const Lead& lead, const DumpFormat& format, Notices& notices)
 }
 
 /// The columns of a rank without rows, or the check that those of a rank with rows are the same.
-ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat& format)
+ColumnPlan join_plan(const ColumnPlan& lead, const FrameView& frame, const DumpFormat& format)
 {
   if (frame.rows == 0)
   {
-    return lead.columns;
+    return lead;
   }
   Notices told; // by the rank that leads
-  const std::vector<std::string> names = lead.columns.names();
+  const std::vector<std::string> names = lead.names();
   ColumnPlan plan = plan_names(names, frame, format, told);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const ColumnSource& own = plan.columns[i];
-    const ColumnSource& other = lead.columns.columns[i];
+    const ColumnSource& other = lead.columns[i];
     if (own.kind != other.kind || own.own != other.own ||
       is_integer(own.values.type) != is_integer(other.values.type) ||
       (own.values.type == ValueType::Text) != (other.values.type == ValueType::Text))
@@ -250,13 +293,13 @@ ColumnPlan join_plan(const Lead& lead, const FrameView& frame, const DumpFormat&
     }
     plan.columns[i].numbers = other.numbers;
   }
-  if (plan.ids.has_value() != lead.columns.ids.has_value())
+  if (plan.ids.has_value() != lead.ids.has_value())
   {
     fail_others("id");
   }
   for (std::size_t axis = 0; axis < plan.images.size(); ++axis)
   {
-    if (plan.images[axis].has_value() != lead.columns.images[axis].has_value())
+    if (plan.images[axis].has_value() != lead.images[axis].has_value())
     {
       fail_others(std::string("i") + "xyz"[axis]);
     }
@@ -275,7 +318,7 @@ FramePlan plan_frame(
   survey.has_box = frame.has_box;
   if (!frame.has_box && !is_table(format))
   {
-    survey.bounds = bounds_of_grains(frame);
+    find_bounds(frame, survey);
   }
   if (may_lose_digits(format))
   {
@@ -292,36 +335,37 @@ FramePlan plan_frame(
   const auto best = std::max_element(surveys.begin(), surveys.end(), knows);
   const auto leader = static_cast<int>(best - surveys.begin());
 
-  Lead lead;
-  std::string told;
+  Notices told;
+  std::string bytes;
   if (ranks.rank() == leader)
   {
-    lead.header = frame.header;
-    lead.header.dialect = choose_dialect(format, frame.header);
-    choose_box(lead, frame, format, surveys);
-    const std::vector<std::string> names = choose_names(frame, format, lead.notices);
+    plan.header = frame.header;
+    plan.header.dialect = choose_dialect(format, frame.header);
+    choose_box(plan, frame, format, surveys, told);
+    const std::vector<std::string> names = choose_names(frame, format, told);
     check_names(names);
-    lead.columns = plan_names(names, frame, format, lead.notices);
+    plan.columns = plan_names(names, frame, format, told);
     if (!format.binary)
     {
-      choose_numbers(frame, format.numbers, lead.columns);
+      choose_numbers(frame, format.numbers, plan.columns);
     }
-    check_frame(lead, format, lead.notices);
+    check_frame(plan, format, told);
     ArchiveWriter packer;
-    pass(packer, lead);
-    told = std::move(packer.bytes);
+    pass(packer, plan);
+    pass(packer, told);
+    bytes = std::move(packer.bytes);
   }
-  ranks.broadcast(told, leader);
-  ArchiveReader unpacker(told);
-  pass(unpacker, lead);
-  plan.header = lead.header;
-  plan.header.counted = name_of_rows(format, lead.header);
+  ranks.broadcast(bytes, leader);
+  ArchiveReader unpacker(bytes);
+  pass(unpacker, plan);
+  pass(unpacker, told);
+  plan.header.counted = name_of_rows(format, plan.header);
   plan.header.rows =
     std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
-  plan.header.box.boundary =
-    lead.header.box.boundary.empty() ? "ff ff ff" : parse_boundary(lead.header.box.boundary);
-  plan.columns = join_plan(lead, frame, format);
-  notices.insert(notices.end(), lead.notices.begin(), lead.notices.end());
+  std::string& boundary = plan.header.box.boundary;
+  boundary = boundary.empty() ? "ff ff ff" : parse_boundary(boundary);
+  plan.columns = join_plan(plan.columns, frame, format);
+  notices.insert(notices.end(), told.begin(), told.end());
   return plan;
 }
 }

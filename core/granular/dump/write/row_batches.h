@@ -2,24 +2,99 @@
 #ifndef granular_dump_write_row_batches_h
 #define granular_dump_write_row_batches_h
 
+#include "granular/bytes/byte_sink.h"
+#include "granular/bytes/compression.h"
 #include "granular/common/progress.h"
-#include "granular/dump/write/file_appender.h"
-#include "granular/dump/write/row_encoder.h"
+#include "granular/dump/write/encode_header.h"
+#include "granular/dump/write/print_loss.h"
+#include "granular/dump/write/row_values.h"
 #include "granular/parallel/executor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace granular
 {
-/// The rows of one rank as the bytes of a dump, several chunks at a time, which threads encode together. The ends of chunks
-/// depend only on the rows. Needs some MiB for any number of rows.
+/// Writes bytes one after the other, compressed or not, on several threads. The result depends only on the bytes and on where
+/// parts end.
+class FileAppender
+{
+public:
+  FileAppender(OutputFile& file, Compression compression, const Executor& executor)
+    : file_(file)
+    , compression_(compression)
+    , executor_(executor)
+  {
+  }
+
+  void append(std::string_view bytes);
+
+  /// Returns true if bytes go into the file unchanged: then any thread may also write them to the position that take gives.
+  bool is_plain() const noexcept { return compression_ == Compression::None; }
+  std::int64_t take(std::size_t bytes) noexcept
+  {
+    return std::exchange(size_, size_ + static_cast<std::int64_t>(bytes));
+  }
+  void write_at(std::int64_t offset, std::string_view bytes) { file_.write_at(offset, bytes); }
+
+  /// Ends a part of the file, so that a reader may begin after it: a new member begins there.
+  void end_part();
+
+private:
+  OutputFile& file_;
+  Compression compression_;
+  const Executor& executor_;
+  std::string pending_; ///< not compressed yet: at most a member for each thread
+  std::int64_t size_ = 0;
+};
+
+/// Bytes of rows being written. The memory grows and stays, so that no byte of it is cleared twice.
+class RowBuffer
+{
+public:
+  /// Makes room for more bytes. They count once add() is called.
+  char* room(std::size_t bytes)
+  {
+    if (bytes > memory_.size() - size_)
+    {
+      memory_.resize(std::max(size_ + bytes, memory_.size() + memory_.size() / 2));
+    }
+    return memory_.data() + size_;
+  }
+
+  void add(std::size_t bytes) noexcept { size_ += bytes; }
+  void clear() noexcept { size_ = 0; }
+  std::string_view bytes() const noexcept { return { memory_.data(), size_ }; }
+
+private:
+  std::vector<char> memory_;
+  std::size_t size_ = 0;
+};
+
+/// Rows of a frame that become the bytes of a dump.
+struct RowsToEncode
+{
+  const FrameView& frame;
+  const ColumnPlan& plan;
+  const Box& box;
+  const DumpFormat& format;
+  const ChunkLengths& chunks;
+  std::int64_t first_row;     ///< which of all rows of the frame is the first of this process
+  std::int64_t first_in_file; ///< which of those in its file
+  PrintLoss print_loss = {};
+};
+
+/// The rows of one rank as the bytes of a dump, without duplicates, several chunks at a time, which threads encode together.
+/// The ends of chunks depend only on the rows. Needs some MiB for any number of rows. Throws LimitError, FormatError.
 class RowBatches
 {
 public:
-  RowBatches(const RowEncoder& encoder, const Executor& executor);
+  RowBatches(const RowsToEncode& rows, const Executor& executor);
 
   /// Encodes all rows. Any thread writes each chunk to a plain file as soon as it is done, in order.
   void write_to(FileAppender& file, Progress& progress);
@@ -39,8 +114,9 @@ public:
 
 private:
   void encode(std::size_t chunk, std::size_t worker, RowBuffer& to);
+  void encode_binary(const RowValues& values, std::int64_t in_file, RowBuffer& to) const;
 
-  const RowEncoder& encoder_;
+  const RowsToEncode& of_;
   const Executor& executor_;
   std::int64_t chunk_rows_;
   std::size_t chunks_;
