@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/local/local_file.h"
 
-#include "granular/dump/formats/first_rows.h"
 #include "granular/dump/formats/text_dump.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/numbered_name.h"

@@ -3,7 +3,6 @@
 
 #include "granular/dump/formats/atom_fit.h"
 #include "granular/dump/formats/binary_header.h"
-#include "granular/dump/formats/unnamed_columns.h"
 
 #include <algorithm>
 #include <charconv>

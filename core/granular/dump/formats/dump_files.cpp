@@ -4,9 +4,10 @@
 #include "granular/dump/formats/atom_fit.h"
 #include "granular/dump/formats/binary_dump.h"
 #include "granular/dump/formats/binary_header.h"
-#include "granular/dump/formats/first_rows.h"
+#include "granular/dump/formats/frame_rows.h"
 #include "granular/dump/formats/text_dump.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -14,6 +15,39 @@ namespace granular
 {
 namespace
 {
+/// FileFormat::first_rows for particles: the ids, if there are any.
+std::vector<std::int64_t> find_first_ids(const FileIndex& file, const FrameEntry& entry)
+{
+  constexpr std::int64_t most = 20'000;
+  constexpr std::int64_t most_bytes = std::int64_t{ 1 } << 18;
+  const int column = entry.kind->schema.find(ColumnRole::Id);
+  if (column < 0)
+  {
+    return {};
+  }
+  std::vector<std::int64_t> ids(most);
+  std::int64_t count = 0;
+  ColumnSink sink = { static_cast<std::uint32_t>(column), ValueType::Int64,
+    reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
+  try
+  {
+    const std::unique_ptr<ByteSource> source = open_indexed(file);
+    const std::unique_ptr<FrameRows> rows = open_rows(*source, entry);
+    const std::unique_ptr<RowReader> reader = rows->reader();
+    const std::int64_t step = chunk_extent(entry, most_bytes);
+    for (std::int64_t at = 0; at < extent_of(entry) && count < most; at += step)
+    {
+      reader->open(at, std::min(at + step, extent_of(entry)));
+      count += reader->decode({ &sink, 1 }, most - count);
+    }
+  }
+  catch (const Misfits&)
+  {
+  }
+  ids.resize(static_cast<std::size_t>(count));
+  return ids;
+}
+
 std::string describe_first(const ByteSource& source, const FrameEntry& entry)
 {
   return entry.kind->is_text() ? ""

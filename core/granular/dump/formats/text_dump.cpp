@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/formats/text_dump.h"
 
-#include "granular/dump/formats/frame_rows.h"
+#include "granular/common/hash.h"
+#include "granular/dump/formats/atom_fit.h"
 #include "granular/dump/formats/text_header.h"
-#include "granular/dump/formats/unnamed_columns.h"
 #include "granular/numbers/number.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 #include <span>
 #include <utility>
@@ -370,5 +371,15 @@ void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progr
   const ScanAhead& ahead, RowsOf rows_of)
 {
   Indexer(source, index, progress, ahead, rows_of).run();
+}
+
+std::vector<std::int64_t> hash_first_rows(const FileIndex& file, const FrameEntry& entry)
+{
+  constexpr std::int64_t most_bytes = std::int64_t{ 1 } << 18;
+  std::string bytes(static_cast<std::size_t>(std::min(entry.end - entry.offset, most_bytes)), ' ');
+  bytes.resize(open_indexed(file)->read(entry.offset, bytes.data(), bytes.size()));
+  Hash hash;
+  hash.add(bytes.data(), bytes.size());
+  return { std::bit_cast<std::int64_t>(hash.value()) };
 }
 }

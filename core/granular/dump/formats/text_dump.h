@@ -31,5 +31,8 @@ bool makes_columns(const std::vector<std::string>& names,
 /// Indexes a text dump; see index_dump. index.kinds must be set.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
   const ScanAhead& ahead = {}, RowsOf rows_of = RowsOf::Particles);
+
+/// FileFormat::first_rows for rows that are no particles, and may be equal by chance: a hash of all first rows together.
+std::vector<std::int64_t> hash_first_rows(const FileIndex& file, const FrameEntry& entry);
 }
 #endif

@@ -13,6 +13,11 @@ namespace granular
 {
 namespace
 {
+/// Thrown where the text ends.
+struct EndOfText
+{
+};
+
 /// Takes the mark off a line that begins with it; else false.
 bool take_item(std::string_view& line) noexcept
 {
@@ -87,17 +92,25 @@ void TextHeader::restart(const std::string& units)
 
 bool TextHeader::read()
 {
-  std::string_view line;
-  bool more = true;
-  while (more && !has_columns_ && this->next(line))
+  try
   {
-    more = !has_words(line) || line == byte_order_mark || this->read_section(line);
+    while (!has_columns_)
+    {
+      const std::string_view line = this->next();
+      if (has_words(line) && line != byte_order_mark)
+      {
+        this->read_section(line);
+      }
+    }
+  }
+  catch (const EndOfText&)
+  {
   }
   return has_columns_;
 }
 
-/// A section, or what lies between frames, from its first line on. False at the end of the text.
-bool TextHeader::read_section(std::string_view line)
+/// A section, or what lies between frames, from its first line on.
+void TextHeader::read_section(std::string_view line)
 {
   // the words outlive the line: the sections read on
   section_ = line;
@@ -108,10 +121,11 @@ bool TextHeader::read_section(std::string_view line)
     append_words(rest, words_);
   }
   const bool columns = opened_ && !header_.counted.empty() && begins_with(words_, header_.counted);
-  const Section& section = find_section(words_);
-  if (!opened_ && !words_.empty() && section.parse == &TextHeader::skip_section)
+  const auto section = std::ranges::find_if(sections,
+    [this](const Section& entry) { return begins_with(words_, entry.name, entry.alone); });
+  if (!opened_ && !words_.empty() && section->name.empty())
   {
-    return this->skip_section(words_); // between frames, or behind the last
+    return this->skip_section(); // between frames, or behind the last
   }
   if (words_.empty() || (!opened_ && !opens_frame(words_)))
   {
@@ -123,15 +137,16 @@ bool TextHeader::read_section(std::string_view line)
     offset_ = scanner_.last_offset();
     line_ = scanner_.last_line();
   }
-  this->look_for_next_frame(words_, section_);
-  return columns ? this->parse_columns(words_) : (this->*section.parse)(words_);
+  this->look_for_next_frame();
+  columns ? this->parse_columns() : (this->*section->parse)();
 }
 
-bool TextHeader::next(std::string_view& line)
+std::string_view TextHeader::next()
 {
+  std::string_view line;
   if (!scanner_.next(line))
   {
-    return false;
+    throw EndOfText();
   }
   if (const std::size_t glued = find_glued_header(line))
   {
@@ -139,13 +154,13 @@ bool TextHeader::next(std::string_view& line)
     scanner_.go_to(scanner_.last_offset() + static_cast<std::int64_t>(glued), where.line);
     throw FormatError("expected a whole line, got the header of another frame within it", where);
   }
-  return true;
+  return line;
 }
 
 /// A second ITEM: TIMESTEP is that of another frame, and so are UNITS and TIME that came before it.
-void TextHeader::look_for_next_frame(Words words, std::string_view line)
+void TextHeader::look_for_next_frame()
 {
-  if (!has_timestep_ || !opens_frame(words))
+  if (!has_timestep_ || !opens_frame(words_))
   {
     return;
   }
@@ -154,19 +169,12 @@ void TextHeader::look_for_next_frame(Words words, std::string_view line)
     next_offset_ = scanner_.last_offset();
     next_line_ = scanner_.last_line();
   }
-  if (words[0] == "TIMESTEP")
+  if (words_[0] == "TIMESTEP")
   {
-    const std::string expected = "expected " + this->columns_section() + ", got " + quoted(line);
     const Where where = scanner_.where();
     scanner_.go_to(next_offset_, next_line_);
-    throw FormatError(expected, where);
+    throw FormatError("expected " + this->columns_section() + ", got " + quoted(section_), where);
   }
-}
-
-const TextHeader::Section& TextHeader::find_section(Words words) noexcept
-{
-  return *std::find_if(std::begin(sections), std::end(sections),
-    [words](const Section& entry) { return begins_with(words, entry.name, entry.alone); });
 }
 
 void TextHeader::fail(const std::string& expected, std::string_view got) const
@@ -190,25 +198,24 @@ void TextHeader::require(bool seen, const char* section) const
   }
 }
 
-bool TextHeader::value_line(std::string_view& line)
+/// The next line with words.
+std::string_view TextHeader::value_line()
 {
-  do
+  std::string_view line = this->next();
+  while (!has_words(line))
   {
-    if (!this->next(line))
-    {
-      return false;
-    }
-  } while (!has_words(line));
+    line = this->next();
+  }
   if (line.starts_with(item_mark))
   {
     const std::string copy(line);
     scanner_.put_back();
     this->fail("a value", copy);
   }
-  return true;
+  return line;
 }
 
-std::int64_t TextHeader::integer(std::string_view word, const char* what) const
+std::int64_t TextHeader::integer(std::string_view word, const std::string& what) const
 {
   std::int64_t value = 0;
   if (!parse_int64(word.data(), word.data() + word.size(), value))
@@ -218,83 +225,55 @@ std::int64_t TextHeader::integer(std::string_view word, const char* what) const
   return value;
 }
 
-bool TextHeader::parse_timestep(Words)
+void TextHeader::parse_timestep()
 {
-  std::string_view line;
-  if (!this->value_line(line))
-  {
-    return false;
-  }
-  // some tools add the time as a second word
+  std::string_view line = this->value_line(); // some tools add the time as a second word
   header_.timestep = this->integer(take_word(line), "an integer timestep");
   has_timestep_ = true;
-  return true;
 }
 
-bool TextHeader::parse_time(Words)
+void TextHeader::parse_time()
 {
-  double time = 0;
-  if (!this->read_numbers(1, &time))
-  {
-    return false;
-  }
-  header_.time = time;
-  return true;
+  header_.time = this->read_numbers(1)[0];
 }
 
-bool TextHeader::parse_units(Words)
+void TextHeader::parse_units()
 {
-  std::string_view line;
-  if (!this->value_line(line))
-  {
-    return false;
-  }
+  std::string_view line = this->value_line();
   header_.units = take_word(line);
-  return true;
 }
 
-bool TextHeader::parse_label(Words)
+void TextHeader::parse_label()
 {
-  std::string_view line;
-  if (!this->next(line))
-  {
-    return false;
-  }
-  header_.label = line;
-  return true;
+  header_.label = this->next();
 }
 
-bool TextHeader::parse_rows(Words words)
+void TextHeader::parse_rows()
 {
-  const std::string counted = join_words(words.subspan(2));
+  const std::string counted = join_words(std::span(words_).subspan(2));
   const bool particles = counted == "ATOMS";
   if (counted.empty() || (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
   {
     this->fail(rows_of_ == RowsOf::Others ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
                                           : "ITEM: NUMBER OF ATOMS",
-      "ITEM: " + join_words(words));
+      "ITEM: " + join_words(words_));
   }
   header_.counted = counted;
-  std::string_view line;
-  if (!this->value_line(line))
-  {
-    return false;
-  }
+  std::string_view line = this->value_line();
   const std::string_view word = take_word(line);
   const std::string number = std::string("a number of ") + (particles ? "atoms" : "rows");
-  header_.rows = this->integer(word, number.c_str());
+  header_.rows = this->integer(word, number);
   if (header_.rows < 0)
   {
     this->fail(number + " >= 0", word);
   }
   has_rows_ = true;
-  return true;
 }
 
 /// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers.
-bool TextHeader::parse_box(Words words)
+void TextHeader::parse_box()
 {
-  Words rest = words.subspan(2);
+  std::span<const std::string_view> rest = std::span(words_).subspan(2);
   const bool tilted = begins_with(rest, "xy xz yz");
   const bool general = begins_with(rest, "abc origin");
   rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
@@ -303,10 +282,7 @@ bool TextHeader::parse_box(Words words)
   header_.box_rounding = {};
   for (std::size_t line = 0; line < n.size(); ++line)
   {
-    if (!this->read_numbers(general ? 4 : tilted ? 3 : 2, n[line].data(), &spelling))
-    {
-      return false;
-    }
+    n[line] = this->read_numbers(general ? 4 : tilted ? 3 : 2, &spelling);
     const auto& [lo, hi, tilt, none] = spelling.rounding;
     header_.box_rounding[line] += std::max(lo, hi);
     header_.box_rounding[line == 2 ? 1 : 0] += tilt; // xy and xz, then yz
@@ -332,16 +308,11 @@ bool TextHeader::parse_box(Words words)
   constexpr std::size_t lammps = 22; // characters of its %.16e
   header_.dialect = spelling.shortest >= lammps ? Dialect::Lammps : Dialect::Liggghts;
   has_box_ = true;
-  return true;
 }
 
-bool TextHeader::read_numbers(std::size_t count, double* numbers, Spelling* spelling)
+std::array<double, 4> TextHeader::read_numbers(std::size_t count, Spelling* spelling)
 {
-  std::string_view line;
-  if (!this->value_line(line))
-  {
-    return false;
-  }
+  const std::string_view line = this->value_line();
   std::array<std::string_view, 4> words;
   std::size_t there = 0;
   std::string_view rest = line;
@@ -353,23 +324,25 @@ bool TextHeader::read_numbers(std::size_t count, double* numbers, Spelling* spel
   {
     this->fail(std::to_string(count) + (count == 1 ? " number" : " numbers"), line);
   }
+  std::array<double, 4> numbers = {};
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (!parse_double(words[i].data(), words[i].data() + words[i].size(), numbers[i]))
+    const std::string_view word = words[i];
+    if (!parse_double(word.data(), word.data() + word.size(), numbers[i]))
     {
-      this->fail("a number", words[i]);
+      this->fail("a number", word);
     }
     if (spelling)
     {
-      spelling->shortest = std::min(spelling->shortest, words[i].size());
-      spelling->digits = std::max(spelling->digits, digits_of(words[i]));
-      spelling->rounding[i] = rounding_of(words[i], numbers[i]);
+      spelling->shortest = std::min(spelling->shortest, word.size());
+      spelling->digits = std::max(spelling->digits, digits_of(word));
+      spelling->rounding[i] = rounding_of(word, numbers[i]);
     }
   }
-  return true;
+  return numbers;
 }
 
-bool TextHeader::parse_columns(Words words)
+void TextHeader::parse_columns()
 {
   this->require(has_timestep_, "TIMESTEP");
   this->require(has_rows_, "NUMBER OF ATOMS");
@@ -377,23 +350,15 @@ bool TextHeader::parse_columns(Words words)
   header_.has_box = has_box_;
   header_.box = has_box_ ? std::move(header_.box) : Box();
   const auto section = split_words(header_.counted).size();
-  column_names_.assign(words.begin() + static_cast<std::ptrdiff_t>(section), words.end());
+  column_names_.assign(words_.begin() + static_cast<std::ptrdiff_t>(section), words_.end());
   has_columns_ = true;
-  return true;
 }
 
-bool TextHeader::skip_section(Words)
+void TextHeader::skip_section()
 {
-  std::string_view line;
-  while (this->next(line))
+  while (item_words(this->next()).empty())
   {
-    std::string_view rest = line;
-    if (take_item(rest) && has_words(rest))
-    {
-      scanner_.put_back();
-      return true;
-    }
   }
-  return false;
+  scanner_.put_back();
 }
 }

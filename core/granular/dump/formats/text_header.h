@@ -58,14 +58,11 @@ public:
   bool opened() const noexcept { return opened_; }
 
 private:
-  using Words = std::span<const std::string_view>;
-  using Parse = bool (TextHeader::*)(Words);
-
   struct Section
   {
     std::string_view name; ///< words after ITEM:, as far as they are fixed
     bool alone;            ///< no other words may follow: with some it is an unknown section
-    Parse parse;           ///< false at the end of the text
+    void (TextHeader::*parse)();
   };
 
   /// The spelling of numbers on a line.
@@ -78,21 +75,20 @@ private:
 
   static const Section sections[];
 
-  static const Section& find_section(Words words) noexcept;
-  bool read_section(std::string_view line);
-  bool next(std::string_view& line);
-  void look_for_next_frame(Words words, std::string_view line);
-  bool value_line(std::string_view& line);
-  bool parse_timestep(Words words);
-  bool parse_time(Words words);
-  bool parse_units(Words words);
-  bool parse_label(Words words);
-  bool parse_rows(Words words);
-  bool parse_box(Words words);
-  bool parse_columns(Words words);
-  bool skip_section(Words words);
-  bool read_numbers(std::size_t count, double* numbers, Spelling* spelling = nullptr);
-  std::int64_t integer(std::string_view word, const char* what) const;
+  void read_section(std::string_view line);
+  std::string_view next();
+  void look_for_next_frame();
+  std::string_view value_line();
+  void parse_timestep();
+  void parse_time();
+  void parse_units();
+  void parse_label();
+  void parse_rows();
+  void parse_box();
+  void parse_columns();
+  void skip_section();
+  std::array<double, 4> read_numbers(std::size_t count, Spelling* spelling = nullptr);
+  std::int64_t integer(std::string_view word, const std::string& what) const;
   void require(bool seen, const char* section) const;
   std::string columns_section() const;
   [[noreturn]] void fail(const std::string& expected, std::string_view got) const;

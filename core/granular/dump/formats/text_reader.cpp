@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/dump/formats/text_reader.h"
+#include "granular/dump/formats/text_rows.h"
 
 #include "granular/numbers/number.h"
 #include "granular/text/line_scan.h"

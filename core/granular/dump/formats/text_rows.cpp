@@ -3,7 +3,6 @@
 
 #include "granular/dump/formats/text_dump.h"
 #include "granular/dump/formats/text_header.h"
-#include "granular/dump/formats/text_reader.h"
 #include "granular/numbers/printed_digits.h"
 #include "granular/text/text_scanner.h"
 

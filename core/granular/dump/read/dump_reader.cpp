@@ -214,15 +214,10 @@ RoundingLoss loss_of(const Vector3& moved, const DumpFrame& frame)
 DumpPart decode(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request,
   Progress& progress)
 {
-  DumpPart part;
-  FrameDecoder decoder(pieces, schema, request, part.notices);
-  part.misfits = decoder.run(progress);
+  DumpPart part = FrameDecoder(pieces, schema, request).run(progress);
   if (part.misfits.empty())
   {
-    const Vector3 moved = decoder.moved();
-    part.frame = decoder.take(part.ids);
-    part.loss = loss_of(moved, part.frame);
-    part.counts = decoder.take_counts();
+    part.loss = loss_of(part.loss.moved, part.frame);
     if (request.single_precision || moves_points(part.frame, request))
     {
       part.loss.add_radius(smallest_radius(view_frame(part.frame)));

@@ -14,6 +14,20 @@ namespace granular
 namespace
 {
 constexpr std::int64_t some_rows = 4096;
+
+/// The rows that the bytes of a piece can hold.
+std::int64_t possible_rows(const FramePiece& piece) noexcept
+{
+  constexpr std::int64_t often_packed = 256; // times; what is packed better takes another turn
+  const FrameEntry& entry = piece.entry;
+  const std::size_t columns = std::max<std::size_t>(entry.kind->schema.columns().size(), 1);
+  const std::size_t word =
+    entry.kind->is_text() ? 2 : sizeof(double); // a digit and a blank at least
+  const std::int64_t all = entry.end - entry.offset;
+  const std::int64_t bytes =
+    piece.file.compressed ? std::min(all, often_packed * piece.file.stamp.size) : all;
+  return bytes / static_cast<std::int64_t>(word * columns) + some_rows;
+}
 }
 
 std::int64_t rows_of(const FramePieces& pieces) noexcept
@@ -67,27 +81,16 @@ std::int64_t likely_rows(const FramePieces& pieces, const std::vector<PieceRows>
   std::int64_t rows = 0;
   for (const PieceRows& range : ranges)
   {
-    const FrameEntry& entry = pieces[range.piece].entry;
+    const FramePiece& piece = pieces[range.piece];
     const double share =
-      static_cast<double>(range.last - range.first) / static_cast<double>(extent_of(entry));
-    const double likely = 1.25 * share * static_cast<double>(entry.rows) + some_rows;
-    const bool all = range.last - range.first == extent_of(entry);
-    rows += all || likely >= static_cast<double>(entry.rows) ? entry.rows
-                                                             : static_cast<std::int64_t>(likely);
+      static_cast<double>(range.last - range.first) / static_cast<double>(extent_of(piece.entry));
+    const double likely = 1.25 * share * static_cast<double>(piece.entry.rows) + some_rows;
+    const std::int64_t possible = std::min(piece.entry.rows, possible_rows(piece));
+    rows += share == 1 || likely >= static_cast<double>(possible)
+      ? possible
+      : static_cast<std::int64_t>(likely);
   }
   return rows;
-}
-
-std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source)
-{
-  constexpr std::int64_t often_packed = 256; // times; what is packed better takes another turn
-  const auto columns = static_cast<std::int64_t>(entry.kind->schema.columns().size());
-  const std::int64_t word =
-    entry.kind->is_text() ? 2 : sizeof(double); // a digit and a blank at least
-  const std::int64_t all = entry.end - entry.offset;
-  const std::int64_t bytes =
-    source.compressed() ? std::min(all, often_packed * source.stamp().size) : all;
-  return std::min(entry.rows, bytes / (word * std::max<std::int64_t>(columns, 1)) + some_rows);
 }
 
 ChunkCuts::ChunkCuts(

@@ -2,7 +2,6 @@
 #ifndef granular_dump_read_frame_chunks_h
 #define granular_dump_read_frame_chunks_h
 
-#include "granular/bytes/byte_source.h"
 #include "granular/frames/run_index.h"
 
 #include <cstddef>
@@ -34,12 +33,9 @@ std::vector<PieceRows> cut_frame(const FramePieces& pieces, int part, int parts)
 /// its pieces.
 std::int64_t most_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges);
 
-/// Returns the usual number of rows in the ranges: rows of text differ in length, but a part rarely has many more than its
-/// share.
+/// Returns the rows to make room for at first: rows of text differ in length, but a part rarely has many more than its share.
+/// Not more than the bytes can hold, those of a packed file at the usual ratio: a header may claim any number.
 std::int64_t likely_rows(const FramePieces& pieces, const std::vector<PieceRows>& ranges);
-
-/// Returns the rows of a frame, limited by the bytes of its file; for a packed file at the usual ratio.
-std::int64_t possible_rows(const FrameEntry& entry, const ByteSource& source);
 
 /// Divides ranges into chunks of about so many bytes, none longer than the longest row: a row that is too long does not fit
 /// and is detected. The bounds do not depend on the ranges. Memory is needed per range, not per chunk, because the length of

@@ -11,12 +11,11 @@
 
 namespace granular
 {
-FrameDecoder::FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema,
-  const DumpRequest& request, Notices& notices)
+FrameDecoder::FrameDecoder(
+  const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request)
   : pieces_(pieces)
   , schema_(schema)
   , request_(request)
-  , notices_(notices)
   , executor_(request.threads)
   , ranges_(cut_frame(pieces, request.piece, request.pieces))
   , chunks_(pieces, ranges_, request.chunk_bytes)
@@ -55,25 +54,6 @@ void FrameDecoder::go_to(Worker& worker, std::size_t piece)
     worker.reader = worker.source->rows->reader();
     worker.piece = piece;
   }
-}
-
-/// Returns the number of rows to make room for at first.
-std::int64_t FrameDecoder::first_room()
-{
-  constexpr std::int64_t few = std::int64_t{ 1 } << 24; // values
-  const std::int64_t likely = likely_rows(pieces_, ranges_);
-  if (likely <= few / std::max(std::ssize(schema_.columns()), std::ptrdiff_t{ 1 }))
-  {
-    return likely;
-  }
-  std::int64_t possible =
-    0; // so many may be no more than a claim: it is held against the bytes that there are
-  for (const PieceRows& range : ranges_)
-  {
-    const std::shared_ptr<const Source> source = this->open(range.piece); // reads the header
-    possible += possible_rows(pieces_[range.piece].entry, *source->bytes);
-  }
-  return std::min(likely, possible);
 }
 
 /// Rows of the frame before this part: where they are chosen by their numbers.
@@ -116,7 +96,7 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
   return rows;
 }
 
-Misfits FrameDecoder::run(Progress& whole)
+DumpPart FrameDecoder::run(Progress& whole)
 {
   PartialProgress progress(whole);
   try
@@ -124,7 +104,7 @@ Misfits FrameDecoder::run(Progress& whole)
     progress.set_part(0, 0.25);
     first_number_ = this->rows_before(progress);
     progress.set_part(0, 1);
-    std::int64_t room = this->first_room();
+    std::int64_t room = likely_rows(pieces_, ranges_);
     while (!this->decode(room, progress))
     {
       room = std::min(most_rows(pieces_, ranges_), 4 * room); // there are more than that
@@ -136,13 +116,19 @@ Misfits FrameDecoder::run(Progress& whole)
     this->count_rows();
     this->check_counts(piece); // those before come first
     this->open(piece)->rows->locate(misfits);
-    return std::move(misfits);
+    part_.misfits = std::move(misfits);
+    return std::move(part_);
   }
   this->check_counts(pieces_.size());
   this->note_surplus();
   this->join_words();
   progress.step(1);
-  return {};
+  part_.frame = layout_->take(next_row_, part_.ids);
+  for (const DecodedChunk& chunk : decoded_)
+  {
+    part_.loss.add({ .moved = chunk.moved });
+  }
+  return std::move(part_);
 }
 
 /// False if there is not room enough, and could be more.
@@ -183,12 +169,12 @@ bool FrameDecoder::decode(std::int64_t room, Progress& progress)
     const std::size_t piece = misfits.front().piece;
     this->count_rows();
     this->check_counts(piece);
-    counts_[piece] = pieces_[piece].entry.rows + 1;
+    part_.counts[piece] = pieces_[piece].entry.rows + 1;
     this->check_counts(piece + 1);
   }
   this->count_rows();
   this->join_ranges(workers);
-  notices_.insert(notices_.end(), notices.begin(), notices.end());
+  part_.notices.insert(part_.notices.end(), notices.begin(), notices.end());
   return true;
 }
 
@@ -312,11 +298,11 @@ void FrameDecoder::join_ranges(const std::vector<Worker>& workers)
 
 void FrameDecoder::count_rows()
 {
-  counts_.assign(pieces_.size(), 0);
+  part_.counts.assign(pieces_.size(), 0);
   next_row_ = 0;
   for (std::size_t chunk = 0; chunk < decoded_.size(); ++chunk)
   {
-    counts_[chunks_[chunk].piece] += decoded_[chunk].rows;
+    part_.counts[chunks_[chunk].piece] += decoded_[chunk].rows;
     next_row_ += decoded_[chunk].kept;
   }
 }
@@ -331,7 +317,7 @@ void FrameDecoder::check_counts(std::size_t pieces) const
       return;
     }
     const FrameEntry& entry = pieces_[range.piece].entry;
-    const std::int64_t count = counts_[range.piece];
+    const std::int64_t count = part_.counts[range.piece];
     const bool all = range.first == 0 && range.last == extent_of(entry);
     if (count > entry.rows || (all && count < entry.rows))
     {
@@ -349,7 +335,7 @@ void FrameDecoder::note_surplus()
     const std::size_t piece = chunks_[chunk].piece;
     if (decoded_[chunk].surplus && piece != said)
     {
-      notices_.push_back({ where_of(pieces_[piece]),
+      part_.notices.push_back({ where_of(pieces_[piece]),
         "expected " + std::to_string(schema_.columns().size()) +
           " words in a row, got more in some rows; the rest of them was ignored" });
       said = piece;
@@ -377,20 +363,5 @@ void FrameDecoder::join_words()
     }
     array.words = all.take();
   }
-}
-
-Vector3 FrameDecoder::moved() const noexcept
-{
-  RoundingLoss loss;
-  for (const DecodedChunk& chunk : decoded_)
-  {
-    loss.add({ .moved = chunk.moved });
-  }
-  return loss.moved;
-}
-
-DumpFrame FrameDecoder::take(Block& ids)
-{
-  return layout_->take(next_row_, ids);
 }
 }

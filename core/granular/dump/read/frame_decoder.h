@@ -14,7 +14,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace granular
@@ -26,20 +25,11 @@ namespace granular
 class FrameDecoder
 {
 public:
-  FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request,
-    Notices& notices);
+  FrameDecoder(const FramePieces& pieces, const ColumnSchema& schema, const DumpRequest& request);
 
-  /// Decodes all rows, or up to a value that does not fit; returns it and the misfits found with it.
-  Misfits run(Progress& progress);
-
-  /// Returns the frame; `ids` gets the ids if they are needed for sorting but not as an array.
-  DumpFrame take(Block& ids);
-
-  /// Returns the largest movement of points by single precision, along the axes of their coordinates.
-  Vector3 moved() const noexcept;
-
-  /// Returns the rows of each piece in this part.
-  std::vector<std::int64_t> take_counts() { return std::move(counts_); }
+  /// Decodes all rows, or up to a value that does not fit: then there are misfits, found with it, and no frame. The loss is the
+  /// movement of points by single precision, along the axes of their coordinates.
+  DumpPart run(Progress& progress);
 
 private:
   /// An open piece.
@@ -62,7 +52,6 @@ private:
 
   std::shared_ptr<const Source> open(std::size_t piece);
   void go_to(Worker& worker, std::size_t piece);
-  std::int64_t first_room();
   std::int64_t rows_before(Progress& progress);
   bool decode(std::int64_t room, Progress& progress);
   void decode_chunk(std::size_t chunk, Worker& worker);
@@ -80,7 +69,7 @@ private:
   const FramePieces& pieces_;
   const ColumnSchema& schema_;
   const DumpRequest& request_;
-  Notices& notices_;
+  DumpPart part_;
   Executor executor_;
   std::vector<PieceRows> ranges_;
   ChunkCuts chunks_;
@@ -92,10 +81,9 @@ private:
 
   std::unique_ptr<FrameLayout> layout_;
   std::deque<DecodedChunk>
-    decoded_; ///< of the chunks that were begun; stays where it is as it grows
-  std::vector<std::int64_t> counts_; ///< rows of each piece that were decoded
-  bool filtered_ = false;            ///< not all rows stay
-  bool alone_ = true;                ///< one thread: it need not count rows before it has them
+    decoded_;             ///< of the chunks that were begun; stays where it is as it grows
+  bool filtered_ = false; ///< not all rows stay
+  bool alone_ = true;     ///< one thread: it need not count rows before it has them
   Turns reads_;
   Turns places_;
   Turns kept_;

@@ -60,10 +60,8 @@ struct DumpWriter::File
 
   void append_rows(std::string_view header, RowBatches& rows, Progress& progress);
   void gather_rows(std::string_view header, RowBatches& rows, Progress& progress);
-  void write_rest(std::int64_t offset, RowBatches& rows, Progress& progress);
-  void share_binary(std::string_view header, RowBatches& rows, const ChunkLengths& chunks,
+  void share_rows(std::string_view header, RowBatches& rows, const ChunkLengths& chunks,
     std::span<const std::int64_t> kept_rows, Progress& progress);
-  void share_text(std::string_view header, RowBatches& rows, Progress& progress);
   std::size_t count_text(RowBatches& rows, std::string& kept, Progress& progress);
 
   Executor executor;
@@ -170,78 +168,69 @@ void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Pr
   agree(ranks, failure);
 }
 
-/// Writes the rows that are left one behind the other.
-void DumpWriter::File::write_rest(std::int64_t offset, RowBatches& rows, Progress& progress)
-{
-  while (rows.next(progress))
-  {
-    for (const std::string_view part : rows.bytes())
-    {
-      shared->write_at(offset, part);
-      offset += static_cast<std::int64_t>(part.size());
-    }
-  }
-}
-
-void DumpWriter::File::share_binary(std::string_view header, RowBatches& rows,
-  const ChunkLengths& chunks, std::span<const std::int64_t> kept_rows, Progress& progress)
-{
-  const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
-  if (ranks.rank() == 0)
-  {
-    shared->write_at(shared_size, header);
-  }
-  const auto before = kept_rows.first(static_cast<std::size_t>(ranks.rank()));
-  SharedProgress shared_progress(progress, ranks);
-  this->write_rest(begin + chunks.offset(sum_of(before)), rows, shared_progress);
-  shared_size = begin + chunks.offset(sum_of(kept_rows));
-}
-
 /// Counts the bytes of all rows, keeps the first, and leaves rows where those begin that are not kept.
 std::size_t DumpWriter::File::count_text(RowBatches& rows, std::string& kept, Progress& progress)
 {
   kept.reserve(most_kept); // growing would take thrice as much; what is not used is not touched
   std::size_t bytes = 0;
-  std::size_t not_kept = rows.place();
+  std::size_t chunks_kept = 0;
   bool keeps = true;
   while (rows.next(progress))
   {
-    const std::vector<std::string_view> batch = rows.bytes();
-    std::size_t size = 0;
-    std::ranges::for_each(batch, [&](std::string_view part) { size += part.size(); });
-    bytes += size;
-    keeps = keeps && kept.size() + size <= most_kept;
-    if (keeps)
+    for (const std::string_view part : rows.bytes())
     {
-      std::ranges::for_each(batch, [&](std::string_view part) { kept += part; });
-      not_kept = rows.place();
+      bytes += part.size();
+      keeps = keeps && kept.size() + part.size() <= most_kept;
+      kept += keeps ? part : std::string_view();
+      chunks_kept += keeps ? 1 : 0;
     }
   }
-  rows.go_to(not_kept);
+  rows.go_to(chunks_kept);
   return bytes;
 }
 
-void DumpWriter::File::share_text(std::string_view header, RowBatches& rows, Progress& progress)
+/// Each rank writes its rows behind those of the ranks before it. Those of a text are counted first.
+void DumpWriter::File::share_rows(std::string_view header, RowBatches& rows,
+  const ChunkLengths& chunks, std::span<const std::int64_t> kept_rows, Progress& progress)
 {
   SharedProgress shared_progress(progress, ranks);
   PartialProgress part(shared_progress);
-  std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks.size()));
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  std::int64_t before = 0;
+  std::int64_t all = 0;
   std::string kept;
-  part.set_part(0, 0.5);
-  counts[static_cast<std::size_t>(ranks.rank())] =
-    static_cast<std::int64_t>(this->count_text(rows, kept, part));
-  ranks.sum(counts);
-  const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
-  if (ranks.rank() == 0)
+  if (chunks.rows_per_chunk() > 0)
+  {
+    before = chunks.offset(sum_of(kept_rows.first(rank)));
+    all = chunks.offset(sum_of(kept_rows));
+  }
+  else
+  {
+    std::vector<std::int64_t> counts(kept_rows.size());
+    part.set_part(0, 0.5);
+    counts[rank] = static_cast<std::int64_t>(this->count_text(rows, kept, part));
+    ranks.sum(counts);
+    before = sum_of(std::span(counts).first(rank));
+    all = sum_of(counts);
+    part.set_part(0.5, 1);
+  }
+  if (rank == 0)
   {
     shared->write_at(shared_size, header);
   }
-  const std::int64_t offset =
-    begin + sum_of(std::span(counts).first(static_cast<std::size_t>(ranks.rank())));
-  shared->write_at(offset, kept);
-  part.set_part(0.5, 1);
-  this->write_rest(offset + static_cast<std::int64_t>(kept.size()), rows, part);
-  shared_size = begin + sum_of(counts);
+  const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
+  std::int64_t offset = begin + before;
+  const auto write = [&](std::string_view bytes)
+  {
+    shared->write_at(offset, bytes);
+    offset += static_cast<std::int64_t>(bytes.size());
+  };
+  write(kept);
+  while (rows.next(part))
+  {
+    std::ranges::for_each(rows.bytes(), write);
+  }
+  shared_size = begin + all;
 }
 
 DumpWriter::DumpWriter(
@@ -344,8 +333,7 @@ void DumpWriter::write_rows(
       file_->gather_rows(header, rows, part);
       break;
     case File::Way::Shared:
-      format_.binary ? file_->share_binary(header, rows, chunks, plan.kept_rows, part)
-                     : file_->share_text(header, rows, part);
+      file_->share_rows(header, rows, chunks, plan.kept_rows, part);
       break;
   }
   file_->first = false;

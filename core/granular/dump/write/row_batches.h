@@ -105,9 +105,8 @@ public:
   /// Returns the bytes of the batch, one string per chunk. Valid until the next batch.
   std::vector<std::string_view> bytes() const;
 
-  /// The first chunk of the next batch; may be set to the first chunk of an earlier batch.
-  std::size_t place() const noexcept { return place_; }
-  void go_to(std::size_t place) noexcept { place_ = place; }
+  /// Makes the next batch begin with a chunk.
+  void go_to(std::size_t chunk) noexcept { place_ = chunk; }
 
   /// Returns the loss in the rows so far.
   RoundingLoss loss() const;
