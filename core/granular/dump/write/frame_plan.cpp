@@ -46,7 +46,7 @@ struct Survey
   double radius = HUGE_VAL;                         ///< the smallest, where numbers may lose digits
 };
 
-/// What the leading rank tells the others: the header, and the columns without their values.
+/// The leading rank tells the others the header, and the columns without their values.
 template <class Archive>
 void pass(Archive& archive, typename Archive::template Passed<FramePlan>& plan)
 {
