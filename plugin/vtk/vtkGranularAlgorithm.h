@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularAlgorithm
- * @brief   Base class of sources and filters that work on many threads and ranks.
+ * @brief   Base class of readers, sources and filters that work on many threads and ranks.
  *
  * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for one update:
  * that update gives empty outputs, and the next one starts afresh.
@@ -45,7 +45,7 @@ public:
    * controller and the same properties, and update together. An error on one rank is an error on all. Default: the global
    * controller; null: this rank works alone.
    */
-  void SetController(vtkMultiProcessController* controller);
+  virtual void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
   ///@}
 

@@ -29,7 +29,7 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
 
-#include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
 class vtkDataArraySelection;
 class vtkPolyData;
@@ -69,8 +69,8 @@ public:
    * ellipsoid. Empty or "automatic", the default: the style in the comment `Atoms # style`; without it the only style that
    * fits the first rows, with a warning. If several styles fit, an error lists them.
    */
-  void SetAtomStyle(const char* style);
-  const char* GetAtomStyle();
+  vtkSetStdStringFromCharMacro(AtomStyle);
+  vtkGetCharFromStdStringMacro(AtomStyle);
   ///@}
 
   ///@{
@@ -78,8 +78,8 @@ public:
    * Sets the boundaries of the box, which data files do not contain: "p p f" or "pp pp ff", see granular::parse_boundary.
    * Empty, the default: axes along which a particle has an image count other than 0 are periodic.
    */
-  void SetBoundary(const char* boundary);
-  const char* GetBoundary();
+  vtkSetStdStringFromCharMacro(Boundary);
+  vtkGetCharFromStdStringMacro(Boundary);
   ///@}
 
   ///@{
@@ -153,18 +153,14 @@ public:
 
 protected:
   vtkGranularDataFileReader();
-  ~vtkGranularDataFileReader() override;
-
-  void ForgetFrames() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  void InspectFrames(vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  ~vtkGranularDataFileReader() override = default;
 
 private:
   vtkGranularDataFileReader(const vtkGranularDataFileReader&) = delete;
   void operator=(const vtkGranularDataFileReader&) = delete;
 
+  std::string AtomStyle;
+  std::string Boundary;
   int Coordinates = ABSOLUTE;
   int PeriodicLines = MINIMUM_IMAGE;
   double PointOrigin[3] = { 0, 0, 0 };
@@ -173,7 +169,6 @@ private:
   double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
 
   struct Internals;
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -1,39 +1,83 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionReader.h"
 
-#include "private/arrays/arrays.h"
 #include "private/decomposition/voxels.h"
-#include "private/dump/dump_output.h"
-#include "private/request/piece_request.h"
-#include "private/request/series_reader.h"
+#include "private/readers/series_reader.h"
 
 #include "granular/decomposition/decomposition_file.h"
 
-#include "vtkDataObject.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
-#include <iterator>
-#include <string>
-#include <utility>
-#include <vector>
+#include <memory>
 
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularDecompositionReader);
 
 //------------------------------------------------------------------------------
-vtkGranularDecompositionReader::vtkGranularDecompositionReader()
+struct vtkGranularDecompositionReader::Internals : vtkGranularSeriesReader::Internals
 {
-  this->Series->Format = &granular::decomposition_format();
+  explicit Internals(vtkGranularDecompositionReader* reader)
+    : vtkGranularSeriesReader::Internals(reader, granular::decomposition_format())
+    , Reader(reader)
+  {
+  }
+
+  void Show(Shown& shown) override;
+
+  vtkGranularDecompositionReader* const Reader;
+};
+
+//------------------------------------------------------------------------------
+// Each rank reads the whole frame, and keeps its piece.
+void vtkGranularDecompositionReader::Internals::Show(Shown& shown)
+{
+  shown.Progress.set_part(0, 0.4);
+  granular::Decomposition all =
+    granular::read_decomposition_pieces(shown.Pieces, shown.Notices, shown.Progress);
+  granular::SubdomainChecks checks;
+  checks.overlap = static_cast<granular::Answer>(this->Reader->CheckOverlap);
+  checks.gap = static_cast<granular::Answer>(this->Reader->CheckGaps);
+  shown.Progress.set_part(0.4, 0.8);
+  granular::check_subdomains(all.subdomains, checks, shown.Where, shown.Notices, shown.Progress);
+
+  granular::FrameHeader header;
+  const granular::Subdomain bounds = granular::bounds_of(all.subdomains);
+  header.box = granular::Box::from_bounds(bounds.lo, bounds.hi);
+  header.box.boundary = "ff ff ff";
+  header.timestep = shown.Pieces.front().entry.timestep;
+  auto* output = vtkUnstructuredGrid::GetData(shown.Outputs);
+  FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+  if (all.has_particles)
+  {
+    output->GetFieldData()->AddArray(
+      MakeDoubles("imbalance", { granular::imbalance_of(all.subdomains) }));
+  }
+
+  const auto [begin, end] = shown.Piece.RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
+  granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
+  if (begin == 0 && end == static_cast<vtkTypeInt64>(all.subdomains.size()))
+  {
+    part.subdomains.swap(all.subdomains); // there may be many
+  }
+  else
+  {
+    part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
+  }
+  VoxelForm form;
+  form.Threads = this->GetThreads();
+  shown.Progress.set_part(0.8, 1);
+  FillVoxels(output, part, form, shown.Progress);
 }
 
 //------------------------------------------------------------------------------
-vtkGranularDecompositionReader::~vtkGranularDecompositionReader() = default;
+vtkGranularDecompositionReader::vtkGranularDecompositionReader()
+  : Superclass(std::make_unique<Internals>(this))
+{
+  this->SetPorts({}, { "vtkUnstructuredGrid" });
+}
 
 //------------------------------------------------------------------------------
 vtkUnstructuredGrid* vtkGranularDecompositionReader::GetOutput()
@@ -45,63 +89,6 @@ vtkUnstructuredGrid* vtkGranularDecompositionReader::GetOutput()
 int vtkGranularDecompositionReader::CanReadFile(const char* fileName)
 {
   return granular::is_decomposition_file(fileName ? fileName : "") ? 1 : 0;
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularDecompositionReader::FillOutputPortInformation(
-  int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
-  return 1;
-}
-
-//------------------------------------------------------------------------------
-// Each rank reads the whole frame, and keeps its piece.
-int vtkGranularDecompositionReader::RequestData(vtkInformation* request,
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  return this->Series->Run(this, request, outputVector,
-    [&](Internals::Shown& shown)
-    {
-      shown.Progress.set_part(0, 0.4);
-      granular::Decomposition all =
-        granular::read_decomposition_pieces(shown.Pieces, shown.Notices, shown.Progress);
-      granular::SubdomainChecks checks;
-      checks.overlap = static_cast<granular::Answer>(this->CheckOverlap);
-      checks.gap = static_cast<granular::Answer>(this->CheckGaps);
-      shown.Progress.set_part(0.4, 0.8);
-      granular::check_subdomains(
-        all.subdomains, checks, shown.Where, shown.Notices, shown.Progress);
-
-      granular::FrameHeader header;
-      const granular::Subdomain bounds = granular::bounds_of(all.subdomains);
-      header.box = granular::Box::from_bounds(bounds.lo, bounds.hi);
-      header.box.boundary = "ff ff ff";
-      header.timestep = shown.Pieces.front().entry.timestep;
-      auto* output = vtkUnstructuredGrid::GetData(outputVector);
-      FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
-      if (all.has_particles)
-      {
-        output->GetFieldData()->AddArray(
-          MakeDoubles("imbalance", { granular::imbalance_of(all.subdomains) }));
-      }
-
-      const auto [begin, end] =
-        PieceRequest::Of(shown.Port).RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
-      granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
-      if (begin == 0 && end == static_cast<vtkTypeInt64>(all.subdomains.size()))
-      {
-        part.subdomains.swap(all.subdomains); // there may be many
-      }
-      else
-      {
-        part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
-      }
-      VoxelForm form;
-      form.Threads = ChooseThreads(this->Threads, this->Series->GetRanks());
-      shown.Progress.set_part(0.8, 1);
-      FillVoxels(output, part, form, shown.Progress);
-    });
 }
 
 //------------------------------------------------------------------------------

@@ -64,11 +64,7 @@ public:
 
 protected:
   vtkGranularDecompositionReader();
-  ~vtkGranularDecompositionReader() override;
-
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  ~vtkGranularDecompositionReader() override = default;
 
 private:
   vtkGranularDecompositionReader(const vtkGranularDecompositionReader&) = delete;
@@ -76,6 +72,8 @@ private:
 
   int CheckOverlap = ANSWER_ERROR;
   int CheckGaps = ANSWER_ERROR;
+
+  struct Internals;
 };
 
 #endif

@@ -37,7 +37,7 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
 
-#include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
 class vtkDataArraySelection;
 class vtkPolyData;
@@ -79,8 +79,8 @@ public:
    * before 2020). Empty, the default: 5 or 8 columns are those of dump atom, and the box tells scaled from absolute
    * coordinates; frames where it does not, and those with other numbers of columns, cannot be read.
    */
-  void SetColumnNames(const char* names);
-  const char* GetColumnNames();
+  vtkSetStdStringFromCharMacro(ColumnNames);
+  vtkGetCharFromStdStringMacro(ColumnNames);
   ///@}
 
   /**
@@ -161,17 +161,13 @@ public:
 
 protected:
   vtkGranularDumpReader();
-  ~vtkGranularDumpReader() override;
-
-  void FramesChanged() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  ~vtkGranularDumpReader() override = default;
 
 private:
   vtkGranularDumpReader(const vtkGranularDumpReader&) = delete;
   void operator=(const vtkGranularDumpReader&) = delete;
 
+  std::string ColumnNames;
   int Coordinates = ABSOLUTE;
   int PointPrecision = DOUBLE_PRECISION;
   double PointOrigin[3] = { 0, 0, 0 };
@@ -182,7 +178,6 @@ private:
 
   friend struct vtkGranularPrivate::ReaderFrames;
   struct Internals;
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularEulerReader.h"
 
-#include "private/arrays/array_choice.h"
-#include "private/dump/dump_output.h"
 #include "private/euler/euler_cells.h"
-#include "private/request/look_together.h"
+#include "private/readers/series_reader.h"
 #include "private/request/name_file.h"
-#include "private/request/piece_request.h"
-#include "private/request/series_reader.h"
 
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"
 
-#include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -31,7 +26,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,19 +44,15 @@ namespace
  */
 struct Form
 {
-  std::string Path; ///< of that frame
-  vtkTypeInt64 Step = 0;
-  std::vector<std::string> Names; ///< of its arrays
-  bool IsImage = true;            ///< one grid; else any number of them
-  granular::EulerGrid Grid;       ///< of an image; without cells if no frame has any
+  vtkTypeInt64 Step = 0;    ///< of that frame
+  bool IsImage = true;      ///< one grid; else any number of them
+  granular::EulerGrid Grid; ///< of an image; without cells if no frame has any
 };
 
 template <class Archive>
 void pass(Archive& archive, typename Archive::template Passed<Form>& form)
 {
-  archive.text(form.Path);
   archive.number(form.Step);
-  granular::pass(archive, form.Names);
   archive.number(form.IsImage);
   archive.number(form.Grid);
 }
@@ -164,86 +154,74 @@ void FillBlocks(vtkPartitionedDataSet* output, const granular::EulerFrame& frame
 }
 
 //------------------------------------------------------------------------------
-struct vtkGranularEulerReader::Internals
+struct vtkGranularEulerReader::Internals : vtkGranularSeriesReader::Internals
 {
-  using Self = vtkGranularEulerReader;
-  using Shown = vtkGranularSeriesReader::Internals::Shown;
+  explicit Internals(vtkGranularEulerReader* reader)
+    : vtkGranularSeriesReader::Internals(reader, granular::euler_format())
+    , Reader(reader)
+  {
+  }
 
-  ArrayChoice Arrays;
-  std::optional<Form> Known; ///< nothing: nobody has looked
-
-  const Form& Look(Self* self);
-  void Tell(Self* self, vtkInformation* info) const;
-  void Fill(Self* self, vtkInformation* info, const granular::EulerFrame& frame,
+  std::string GetLookKey() const override { return std::to_string(this->Reader->OutputType); }
+  Found Look(granular::ArchiveWriter& archive) override;
+  void Take(granular::ArchiveReader& archive) override { pass(archive, this->Known); }
+  void Describe(vtkInformationVector* outputs) override;
+  void Fill(Shown& shown, const granular::EulerFrame& frame,
     const std::vector<granular::RegularGrid>& grids) const;
-  void Show(Self* self, Shown& shown);
+  void Show(Shown& shown) override;
+
+  vtkGranularEulerReader* const Reader;
+  Form Known;
 };
 
 //------------------------------------------------------------------------------
-// Rank 0 looks, for all. Collective.
-const Form& vtkGranularEulerReader::Internals::Look(Self* self)
+vtkGranularSeriesReader::Internals::Found vtkGranularEulerReader::Internals::Look(
+  granular::ArchiveWriter& archive)
 {
-  if (this->Known)
+  std::size_t frame = 0;
+  while (frame + 1 < this->Index.size() && this->Index.first_piece(frame).entry.rows == 0)
   {
-    return *this->Known;
+    ++frame;
+  }
+  const std::vector<granular::FramePiece> pieces = this->Index.pieces(frame);
+  const auto filled = std::ranges::find_if(
+    pieces, [](const granular::FramePiece& one) { return one.entry.rows > 0; });
+  const granular::FramePiece& piece = filled == pieces.end() ? pieces.front() : *filled;
+  AlgorithmProgress progress(this->Reader);
+  Found found;
+  for (std::string& name :
+    granular::euler_array_names(*granular::open_indexed(piece.file), piece.entry, progress))
+  {
+    found.Points.push_back({ std::move(name) });
   }
   Form form;
-  const auto look = [&](granular::ArchiveWriter& packer)
+  form.Step = piece.entry.timestep;
+  if (this->Reader->OutputType == IMAGE_DATA)
   {
-    const granular::RunIndex& index = self->Series->Index;
-    std::size_t frame = 0;
-    while (frame + 1 < index.size() && index.first_piece(frame).entry.rows == 0)
-    {
-      ++frame;
-    }
-    const std::vector<granular::FramePiece> pieces = index.pieces(frame);
-    const auto filled = std::find_if(pieces.begin(), pieces.end(),
-      [](const granular::FramePiece& one) { return one.entry.rows > 0; });
-    const granular::FramePiece& piece = filled == pieces.end() ? pieces.front() : *filled;
-    AlgorithmProgress progress(self);
-    form.Path = piece.file.path;
-    form.Step = piece.entry.timestep;
-    form.Names =
-      granular::euler_array_names(*granular::open_indexed(piece.file), piece.entry, progress);
-    if (self->OutputType == IMAGE_DATA)
-    {
-      granular::Notices notices; // are given again where cells are shown
-      std::vector<granular::RegularGrid> grids;
-      ReadCells(
-        pieces, [](std::string_view) { return false; }, &grids, notices, progress);
-      form.IsImage = grids.size() <= 1;
-      form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
-      ExtentOf(form.Grid); // can be had
-    }
-    pass(packer, form);
-  };
-  const auto take = [&](granular::ArchiveReader& unpacker)
-  {
-    pass(unpacker, form);
-    this->Known = std::move(form);
-    this->Arrays.Begin();
-    for (const std::string& name : this->Known->Names)
-    {
-      this->Arrays.Add(name, true);
-    }
-    this->Arrays.End();
-  };
-  LookTogether(self->Series->GetRanks(), look, take);
-  return *this->Known;
+    granular::Notices notices; // are given again where cells are shown
+    std::vector<granular::RegularGrid> grids;
+    ReadCells(
+      pieces, [](std::string_view) { return false; }, &grids, notices, progress);
+    form.IsImage = grids.size() <= 1;
+    form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
+    ExtentOf(form.Grid); // can be had
+  }
+  pass(archive, form);
+  return found;
 }
 
 //------------------------------------------------------------------------------
 // An image can be cut anywhere, all else is in pieces.
-void vtkGranularEulerReader::Internals::Tell(Self* self, vtkInformation* info) const
+void vtkGranularEulerReader::Internals::Describe(vtkInformationVector* outputs)
 {
-  const bool image = self->OutputType == IMAGE_DATA && this->Known->IsImage;
+  vtkInformation* info = outputs->GetInformationObject(0);
   info->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
   info->Remove(Pipeline::WHOLE_EXTENT());
   info->Remove(vtkDataObject::ORIGIN());
   info->Remove(vtkDataObject::SPACING());
-  if (image)
+  if (this->Reader->OutputType == IMAGE_DATA && this->Known.IsImage)
   {
-    const granular::EulerGrid& grid = this->Known->Grid;
+    const granular::EulerGrid& grid = this->Known.Grid;
     const bool empty = grid.size() == 0;
     const CellExtent none = { 0, -1, 0, -1, 0, -1 };
     const CellExtent whole = empty ? none : ExtentOf(grid);
@@ -258,31 +236,30 @@ void vtkGranularEulerReader::Internals::Tell(Self* self, vtkInformation* info) c
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularEulerReader::Internals::Fill(Self* self, vtkInformation* info,
-  const granular::EulerFrame& frame, const std::vector<granular::RegularGrid>& grids) const
+void vtkGranularEulerReader::Internals::Fill(Shown& shown, const granular::EulerFrame& frame,
+  const std::vector<granular::RegularGrid>& grids) const
 {
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  const PieceRequest piece = PieceRequest::Of(info);
+  vtkDataObject* output = vtkDataObject::GetData(shown.Outputs);
   auto* image = vtkImageData::SafeDownCast(output);
   auto* blocks = vtkPartitionedDataSet::SafeDownCast(output);
   auto* points = vtkPolyData::SafeDownCast(output);
-  if (self->OutputType == POINTS && points)
+  if (this->Reader->OutputType == POINTS && points)
   {
-    const auto [begin, end] = piece.RangeOf(frame.cells);
+    const auto [begin, end] = shown.Piece.RangeOf(frame.cells);
     FillPoints(points, frame, begin, end, {});
   }
-  else if (self->OutputType == IMAGE_DATA && this->Known->IsImage && image)
+  else if (this->Reader->OutputType == IMAGE_DATA && this->Known.IsImage && image)
   {
     CellExtent extent = {};
     if (!grids.empty())
     {
-      extent = AskedExtent(info, ExtentOf(this->Known->Grid));
+      extent = AskedExtent(shown.Port, ExtentOf(this->Known.Grid));
     }
     FillGrid(image, frame, grids.empty() ? granular::RegularGrid{} : grids.front(), extent);
   }
-  else if (self->OutputType == IMAGE_DATA && !this->Known->IsImage && blocks)
+  else if (this->Reader->OutputType == IMAGE_DATA && !this->Known.IsImage && blocks)
   {
-    FillBlocks(blocks, frame, grids, piece);
+    FillBlocks(blocks, frame, grids, shown.Piece);
   }
   else
   {
@@ -293,81 +270,49 @@ void vtkGranularEulerReader::Internals::Fill(Self* self, vtkInformation* info,
 
 //------------------------------------------------------------------------------
 // Each rank reads the whole frame, and keeps its part.
-void vtkGranularEulerReader::Internals::Show(Self* self, Shown& shown)
+void vtkGranularEulerReader::Internals::Show(Shown& shown)
 {
-  this->Look(self);
   shown.Progress.set_part(0, 0.9);
-  const bool cells = self->OutputType == IMAGE_DATA;
+  const bool cells = this->Reader->OutputType == IMAGE_DATA;
   const auto wanted = [&](std::string_view name)
   {
     const std::string array(name);
-    return this->Arrays.GetSelection()->ArrayExists(array.c_str()) == 0 ||
-      this->Arrays.GetSelection()->ArrayIsEnabled(array.c_str()) != 0;
+    return this->Points.GetSelection()->ArrayExists(array.c_str()) == 0 ||
+      this->Points.GetSelection()->ArrayIsEnabled(array.c_str()) != 0;
   };
   std::vector<granular::RegularGrid> grids;
   const granular::EulerFrame frame =
     ReadCells(shown.Pieces, wanted, cells ? &grids : nullptr, shown.Notices, shown.Progress);
-  if (cells && this->Known->IsImage)
+  if (cells && this->Known.IsImage)
   {
-    NameFile(shown.Where, [&] { CheckImage(*this->Known, grids); });
+    NameFile(shown.Where, [&] { CheckImage(this->Known, grids); });
   }
   granular::FrameHeader header;
   header.box = FindBounds(frame, grids);
   header.box.boundary = "ff ff ff";
   header.timestep = shown.Pieces.front().entry.timestep;
-  this->Fill(self, shown.Port, frame, grids);
-  vtkDataObject* output = shown.Port->Get(vtkDataObject::DATA_OBJECT());
-  FillHeader(output->GetFieldData(), header, granular::Coordinates::Absolute, {});
+  this->Fill(shown, frame, grids);
+  FillHeader(vtkDataObject::GetData(shown.Outputs)->GetFieldData(), header,
+    granular::Coordinates::Absolute, {});
 }
 
 //------------------------------------------------------------------------------
 vtkGranularEulerReader::vtkGranularEulerReader()
-  : Internal(std::make_unique<Internals>())
+  : Superclass(std::make_unique<Internals>(this))
 {
-  this->Series->Format = &granular::euler_format();
-  // who switches an array on or off wants other data
-  this->Internal->Arrays.GetSelection()->AddObserver(
-    vtkCommand::ModifiedEvent, this, &vtkGranularEulerReader::Modified);
-}
-
-//------------------------------------------------------------------------------
-vtkGranularEulerReader::~vtkGranularEulerReader() = default;
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerReader::SetOutputType(int type)
-{
-  type = std::clamp(type, static_cast<int>(POINTS), static_cast<int>(IMAGE_DATA));
-  if (this->OutputType != type)
-  {
-    this->OutputType = type;
-    this->Internal->Known.reset();
-    this->Modified();
-  }
+  this->SetPorts({}, { "vtkDataObject" }); // see RequestDataObject
 }
 
 //------------------------------------------------------------------------------
 vtkDataArraySelection* vtkGranularEulerReader::GetPointDataArraySelection()
 {
-  return this->Internal->Arrays.GetSelection();
+  return this->Series->Points.GetSelection();
 }
 
 //------------------------------------------------------------------------------
 int vtkGranularEulerReader::CanReadFile(const char* fileName)
 {
   return granular::is_euler_file(fileName ? fileName : "") ? 1 : 0;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerReader::ForgetFrames()
-{
-  this->Internal->Known.reset();
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularEulerReader::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject"); // see RequestDataObject
-  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -393,11 +338,12 @@ int vtkGranularEulerReader::RequestDataObject(vtkInformation* vtkNotUsed(request
   {
     provide(vtkNew<vtkImageData>().Get());
   }
-  const Outcome outcome = Guard(this, this->Series->Ranks, outputVector,
+  const Outcome outcome = Guard(this, *this->Ranks, outputVector,
     [&]
     {
-      this->Series->Update(this);
-      if (this->Internal->Look(this).IsImage)
+      this->Series->Update();
+      this->Series->LookOnce();
+      if (static_cast<Internals&>(*this->Series).Known.IsImage)
       {
         provide(vtkNew<vtkImageData>().Get());
       }
@@ -406,22 +352,7 @@ int vtkGranularEulerReader::RequestDataObject(vtkInformation* vtkNotUsed(request
         provide(vtkNew<vtkPartitionedDataSet>().Get());
       }
     });
-  return this->Series->Ranks.EndRequest(this, outcome);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerReader::InspectFrames(vtkInformationVector* outputVector)
-{
-  this->Internal->Look(this);
-  this->Internal->Tell(this, outputVector->GetInformationObject(0));
-}
-
-//------------------------------------------------------------------------------
-int vtkGranularEulerReader::RequestData(vtkInformation* request,
-  vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
-{
-  return this->Series->Run(
-    this, request, outputVector, [&](auto& shown) { this->Internal->Show(this, shown); });
+  return this->Ranks->EndRequest(this, outcome);
 }
 
 //------------------------------------------------------------------------------
@@ -429,6 +360,4 @@ void vtkGranularEulerReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "OutputType: " << (this->OutputType == POINTS ? "Points" : "ImageData") << "\n";
-  os << indent << "PointDataArraySelection:\n";
-  this->Internal->Arrays.GetSelection()->PrintSelf(os, indent.GetNextIndent());
 }

@@ -23,8 +23,6 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
 
-#include <memory> // for std::unique_ptr
-
 class vtkDataArraySelection;
 
 class VTKGRANULAR_EXPORT vtkGranularEulerReader : public vtkGranularSeriesReader
@@ -49,7 +47,7 @@ public:
    * regular grids are an error. The first frame that has cells decides for all: where it is one grid, others must be one
    * with as many cells along each axis.
    */
-  void SetOutputType(int type);
+  vtkSetClampMacro(OutputType, int, POINTS, IMAGE_DATA);
   vtkGetMacro(OutputType, int);
   ///@}
 
@@ -66,14 +64,9 @@ public:
 
 protected:
   vtkGranularEulerReader();
-  ~vtkGranularEulerReader() override;
+  ~vtkGranularEulerReader() override = default;
 
-  void ForgetFrames() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  void InspectFrames(vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
 private:
@@ -83,7 +76,6 @@ private:
   int OutputType = POINTS;
 
   struct Internals;
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -28,7 +28,7 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
 
-#include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
 class vtkDataArraySelection;
 class vtkPolyData;
@@ -88,7 +88,7 @@ public:
    * - CONTACTS: the ends (6), id1 id2 periodic (pair/gran/local pos id); CONTACTS_FORCE: and the force;
    * - WALL_CONTACTS: the ends (6), mesh triangle id2 (wall/gran/local pos id); WALL_CONTACTS_FORCE: and the force.
    */
-  void SetPreset(int preset);
+  vtkSetClampMacro(Preset, int, AUTOMATIC, BOND_TYPE_IDS_FORCE);
   vtkGetMacro(Preset, int);
   ///@}
 
@@ -99,8 +99,8 @@ public:
    * number from 1 on, such as "id1=c_b[7] id2=8". Names are those of arrays and their components (x1 y1 z1 x2 y2 z2
    * id1 id2 btype periodic forcex forcey forcez torquex dist equilibrium_length and so on), or any others.
    */
-  void SetColumnMap(const char* map);
-  const char* GetColumnMap();
+  vtkSetStdStringFromCharMacro(ColumnMap);
+  vtkGetCharFromStdStringMacro(ColumnMap);
   ///@}
 
   ///@{
@@ -136,24 +136,18 @@ public:
 
 protected:
   vtkGranularLocalReader();
-  ~vtkGranularLocalReader() override;
-
-  void ForgetFrames() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  void InspectFrames(vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  ~vtkGranularLocalReader() override = default;
 
 private:
   vtkGranularLocalReader(const vtkGranularLocalReader&) = delete;
   void operator=(const vtkGranularLocalReader&) = delete;
 
   int Preset = AUTOMATIC;
+  std::string ColumnMap;
   int PeriodicLines = MINIMUM_IMAGE;
   double PointOrigin[3] = { 0, 0, 0 };
 
   struct Internals;
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

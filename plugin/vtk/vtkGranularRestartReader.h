@@ -33,8 +33,6 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
 
-#include <memory> // for std::unique_ptr
-
 class vtkDataArraySelection;
 class vtkPolyData;
 
@@ -80,7 +78,7 @@ public:
    * - FLEXIBLE_FIBERS, 13 (until May 2021): these and equilibrium_length;
    * - FLEXIBLE_FIBERS_DAMAGE, 14 (later ones, SEAICE): these and damage, from 1 to 0 where the bond breaks.
    */
-  void SetHistoryLayout(int layout);
+  vtkSetClampMacro(HistoryLayout, int, AUTOMATIC, FLEXIBLE_FIBERS_DAMAGE);
   vtkGetMacro(HistoryLayout, int);
   ///@}
 
@@ -121,13 +119,7 @@ public:
 
 protected:
   vtkGranularRestartReader();
-  ~vtkGranularRestartReader() override;
-
-  void ForgetFrames() override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  void InspectFrames(vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  ~vtkGranularRestartReader() override = default;
 
 private:
   vtkGranularRestartReader(const vtkGranularRestartReader&) = delete;
@@ -138,7 +130,6 @@ private:
   double PointOrigin[3] = { 0, 0, 0 };
 
   struct Internals;
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

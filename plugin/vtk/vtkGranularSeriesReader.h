@@ -18,25 +18,20 @@
  * The reader looks at the files when FileNames changes and at Refresh; with RefreshOnUpdate at every update. It then reads what was
  * appended, and does not read earlier frames again. A file that shrank or was replaced is read again from its beginning. The frames of
  * a file that is gone disappear, with a warning.
- *
- * After an error all outputs are empty and GetErrorCode() is not vtkErrorCode::NoError. A request to abort holds for one update: that
- * update gives empty outputs, and the next one starts afresh.
  */
 
 #ifndef vtkGranularSeriesReader_h
 #define vtkGranularSeriesReader_h
 
-#include "vtkDataObjectAlgorithm.h"
+#include "vtkGranularAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
 #include <memory> // for std::unique_ptr
 
-class vtkMultiProcessController;
-
-class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkDataObjectAlgorithm
+class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkGranularAlgorithm
 {
 public:
-  vtkTypeMacro(vtkGranularSeriesReader, vtkDataObjectAlgorithm);
+  vtkTypeMacro(vtkGranularSeriesReader, vtkGranularAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   enum RepeatedStepsType
@@ -77,7 +72,7 @@ public:
    * default: pieces if the names differ in one number that counts from 0, and if the files share the first and most
    * timesteps, the boxes and the columns, but no particles; otherwise repetitions.
    */
-  void SetRepeatedSteps(int repeated);
+  vtkSetClampMacro(RepeatedSteps, int, AUTO, LAST);
   vtkGetMacro(RepeatedSteps, int);
   ///@}
 
@@ -91,67 +86,30 @@ public:
   vtkGetMacro(TimestepSize, double);
   ///@}
 
-  ///@{
-  /**
-   * Sets the number of threads that look at files and decode frames. 0, the default: the cores of the machine, divided by
-   * the ranks of the Controller on it. The number changes no result. Numbers below 0 are an error and change nothing.
-   */
-  void SetThreads(int threads);
-  vtkGetMacro(Threads, int);
-  ///@}
-
-  ///@{
   /**
    * Sets the ranks that read together, each its piece. All of them must set the controller and the same properties, and
    * update the reader in the same order, even those that have nothing to read. Rank 0 looks at the files for all. An error
    * on one rank is an error on all. Default: the global controller; null: this rank reads alone.
    */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
-  /**
-   * Stops the next or the running update that reads, on all ranks of the Controller: see above.
-   */
-  void SetAbortExecute(vtkTypeBool abort) override;
-
-  /**
-   * Returns the error of the last update, or an empty text if there was none.
-   */
-  const char* GetErrorMessage();
+  void SetController(vtkMultiProcessController* controller) override;
 
 protected:
-  vtkGranularSeriesReader();
+  struct Internals;
+
+  explicit vtkGranularSeriesReader(std::unique_ptr<Internals> internals);
   ~vtkGranularSeriesReader() override;
 
   int ComputePipelineMTime(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector, int requestFromOutputPort, vtkMTimeType* mtime) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-
-  /**
-   * Forgets what is known of frames. Called before the files are looked at, and after a failed request.
-   */
-  virtual void ForgetFrames() {}
-
-  /**
-   * Notes that the frames may have changed. Called after the files were looked at.
-   */
-  virtual void FramesChanged() {}
-
-  /**
-   * Finds out what the frames have, and describes the outputs to the pipeline. Called when the times are known, before
-   * data are requested. Collective; may throw.
-   */
-  virtual void InspectFrames(vtkInformationVector* outputVector);
+  void Execute(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
   bool RefreshOnUpdate = false;
   int RepeatedSteps = AUTO;
   double TimestepSize = 1;
-  int Threads = 0;
-
-  struct Internals;
-  std::unique_ptr<Internals> Series;
+  const std::unique_ptr<Internals> Series;
 
 private:
   friend class vtkGranularWriter; ///< does not replace files that are still read

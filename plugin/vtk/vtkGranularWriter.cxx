@@ -2,9 +2,9 @@
 #include "vtkGranularWriter.h"
 
 #include "private/dump/input_frames.h"
+#include "private/readers/series_reader.h"
 #include "private/request/abort.h"
 #include "private/request/guard.h"
-#include "private/request/series_reader.h"
 #include "private/writing/writer.h"
 
 #include "vtkCommand.h"

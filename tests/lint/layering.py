@@ -93,6 +93,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("contacts", "request arrays dump local"),
     ("euler", "request arrays dump contacts"),
     ("writing", "request dump"),
+    ("readers", "request arrays dump local"),
 )}
 
 C_HEADERS = ("core/c/granular.h", "core/bonds/granular_bonds.h")

@@ -4,52 +4,51 @@
 #include "vtkDataArraySelection.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vtkGranularPrivate
 {
-ArrayChoice::ArrayChoice() = default;
-ArrayChoice::~ArrayChoice() = default;
-
-void ArrayChoice::Begin(bool follow)
+void AddNames(const granular::ColumnSchema& schema, ArrayNames& names)
 {
-  this->Follow = follow;
-  this->Chosen = !this->AreAllOn();
-  this->Next.clear(); // without End, all stays as it was
-  this->Order.clear();
-}
-
-void ArrayChoice::Add(const std::string& name, bool on)
-{
-  if (this->Next.emplace(name, on).second)
+  for (const granular::ArrayInfo& array : schema.arrays())
   {
-    this->Order.push_back(name);
+    names.push_back({ array.name, !array.position_form });
   }
 }
 
+ArrayChoice::ArrayChoice() = default;
+ArrayChoice::~ArrayChoice() = default;
+
 // VTK looks at all names for each that is added by itself. The list is made anew: those that differ from most are known to it before,
 // and keep their state, the others take that of most. Nobody is told, as AddArray tells nobody.
-void ArrayChoice::End()
+void ArrayChoice::Offer(const ArrayNames& arrays)
 {
+  const bool chosen = !this->AreAllOn();
+  this->Names.clear();
+  for (const auto& [name, on] : arrays)
+  {
+    this->Names.emplace(name, on);
+  }
   std::map<std::string, bool> states = this->GetStates();
   std::vector<std::string> kept;
   for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
   {
     const std::string name = this->Selection->GetArrayName(i);
-    if (this->Next.count(name) != 0)
+    if (this->Names.count(name) != 0)
     {
       kept.push_back(name);
       continue;
     }
     this->Gone.erase(name);
-    if (this->Chosen)
+    if (chosen)
     {
       this->Gone[name] = states[name];
     }
   }
-  for (const std::string& name : this->Order)
+  for (const auto& [name, on] : arrays)
   {
     const auto before = this->Gone.find(name);
-    const bool isOn = this->Next[name] && !(this->Follow && this->Chosen);
+    const bool isOn = on && !(this->Follow && chosen);
     if (states.emplace(name, before == this->Gone.end() ? isOn : before->second).second)
     {
       kept.push_back(name);
@@ -68,7 +67,6 @@ void ArrayChoice::End()
   set({}, most);
   set(each[1 - most], 1 - most);
   set(all, most);
-  this->Names.swap(this->Next);
 }
 
 std::map<std::string, bool> ArrayChoice::GetStates() const
@@ -83,40 +81,37 @@ std::map<std::string, bool> ArrayChoice::GetStates() const
 
 bool ArrayChoice::AreAllOn() const
 {
-  const std::map<std::string, bool> states = this->GetStates();
-  return std::all_of(this->Names.begin(), this->Names.end(),
-    [&](const auto& name)
-    {
-      const auto state = states.find(name.first);
-      return !name.second || (state != states.end() && state->second);
-    });
+  const auto wanted = this->GetWanted();
+  return std::ranges::all_of(
+    this->Names, [&](const auto& name) { return !name.second || wanted.contains(name.first); });
 }
 
-std::set<std::string> ArrayChoice::GetWanted() const
+std::set<std::string, std::less<>> ArrayChoice::GetWanted() const
 {
-  std::set<std::string> names;
-  for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
+  std::set<std::string, std::less<>> names;
+  for (const auto& [name, on] : this->GetStates())
   {
-    if (this->Selection->GetArraySetting(i) != 0)
+    if (on)
     {
-      names.insert(this->Selection->GetArrayName(i));
+      names.insert(name);
     }
   }
   return names;
 }
 
+std::function<bool(std::string_view)> ArrayChoice::MakeFilter() const
+{
+  return [names = this->GetWanted()](std::string_view name) { return names.contains(name); };
+}
+
 void ArrayChoice::CheckNames(
-  const std::string& path, granular::Notices& notices, const std::vector<std::string>& others) const
+  const std::string& path, granular::Notices& notices, const granular::ColumnSchema& present) const
 {
   for (const std::string& name : this->GetWanted())
   {
-    if (this->Names.count(name) == 0 &&
-      std::find(others.begin(), others.end(), name) == others.end())
+    if (this->Names.count(name) == 0 && present.find_array(name) < 0)
     {
-      granular::Notice notice;
-      notice.where.path = path;
-      notice.text = "no frame has the array '" + name + "' asked for";
-      notices.push_back(notice);
+      notices.push_back({ { path }, "no frame has the array '" + name + "' asked for" });
     }
   }
 }

@@ -2,19 +2,48 @@
 #ifndef vtkGranularArrayChoice_h
 #define vtkGranularArrayChoice_h
 
+#include "granular/columns/column.h"
 #include "granular/common/error.h"
 
 #include "vtkNew.h"
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 class vtkDataArraySelection;
 
 namespace vtkGranularPrivate
 {
+/**
+ * An array that files have, and whether it is on if nobody chooses.
+ */
+struct ArrayName
+{
+  std::string Name;
+  bool On = true;
+};
+
+template <class Archive>
+void pass(Archive& archive, typename Archive::template Passed<ArrayName>& array)
+{
+  archive.text(array.Name);
+  archive.number(array.On);
+}
+
+/**
+ * May have a name several times, of which the first counts.
+ */
+using ArrayNames = std::vector<ArrayName>;
+
+/**
+ * Adds the arrays of a schema: on, except coordinates.
+ */
+void AddNames(const granular::ColumnSchema& schema, ArrayNames& names);
+
 /**
  * The arrays in the files, and the user's selection of them.
  */
@@ -27,13 +56,10 @@ public:
   vtkDataArraySelection* GetSelection() const { return this->Selection; }
 
   /**
-   * Begins a new list of the current arrays; Add names them, End removes those that are gone. The selection stays, also
-   * for arrays that return. Time is proportional to the number of arrays if few of them are off. follow: new arrays are
-   * off if the user has deselected others.
+   * Replaces the list of arrays. The selection stays, also for arrays that return. Time is proportional to the number of
+   * arrays if few of them are off.
    */
-  void Begin(bool follow = false);
-  void Add(const std::string& name, bool on);
-  void End();
+  void Offer(const ArrayNames& arrays);
 
   /**
    * Returns true if all listed arrays are on, except those that are off by default.
@@ -43,24 +69,27 @@ public:
   /**
    * Returns the names of the selected arrays.
    */
-  std::set<std::string> GetWanted() const;
+  std::set<std::string, std::less<>> GetWanted() const;
+
+  /**
+   * Returns a function that tells whether an array is selected now: a frame may be decoded while the selection changes.
+   */
+  std::function<bool(std::string_view)> MakeFilter() const;
 
   /**
    * Warns of selected names that no frame has: they are probably misspelt, and the column would be missing without a
-   * word. others: names that exist though they were not listed.
+   * word. present: arrays that exist though they may not be listed.
    */
   void CheckNames(const std::string& path, granular::Notices& notices,
-    const std::vector<std::string>& others = {}) const;
+    const granular::ColumnSchema& present = {}) const;
+
+  bool Follow = false; ///< new arrays are off if the user has deselected others
 
 private:
   std::map<std::string, bool> GetStates() const;
 
   vtkNew<vtkDataArraySelection> Selection;
   std::map<std::string, bool> Names; ///< of all frames, and whether they are on if nobody chooses
-  std::map<std::string, bool> Next;  ///< the same of the list that was begun
-  std::vector<std::string> Order;    ///< of its names, as they were added
-  bool Chosen = false;               ///< some were left out when Begin was called
-  bool Follow = false;               ///< as Begin was told
   std::map<std::string, bool> Gone;  ///< what was chosen of those that are no more
 };
 }

@@ -8,8 +8,10 @@
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
+#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -164,7 +166,7 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   }
 }
 
-void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request)
+void FillLeftOut(vtkInformationVector* outputs, const granular::DumpRequest& request)
 {
   std::vector<std::string> names;
   if (request.stride > 1)
@@ -175,9 +177,11 @@ void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request)
   {
     names.emplace_back("RegionOfInterest");
   }
-  if (!names.empty())
+  for (int port = 0; !names.empty() && port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    data->AddArray(MakeStrings("ParticlesLeftOut", names));
+    vtkDataObject::GetData(outputs, port)
+      ->GetFieldData()
+      ->AddArray(MakeStrings("ParticlesLeftOut", names));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 class vtkFieldData;
+class vtkInformationVector;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -46,10 +47,10 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   granular::Coordinates coordinates, const granular::Vector3& pointOrigin);
 
 /**
- * Adds ParticlesLeftOut, which names the properties by which a reader leaves out particles; nothing if all are present.
+ * Adds ParticlesLeftOut to all outputs, which names the properties by which a reader leaves out particles; nothing if all are present.
  * VTK's filters pass field data on, so filters that need all particles can report missing ones.
  */
-void FillLeftOut(vtkFieldData* data, const granular::DumpRequest& request);
+void FillLeftOut(vtkInformationVector* outputs, const granular::DumpRequest& request);
 std::string FindLeftOut(vtkFieldData* data); ///< in words: "Stride 10, RegionOfInterest", or empty
 
 /**

@@ -17,28 +17,12 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
 
 namespace vtkGranularPrivate
 {
-granular::LineRequest MakeLineRequest(int periodicLines, const double pointOrigin[3])
-{
-  granular::LineRequest request;
-  request.periodic = static_cast<granular::PeriodicLines>(periodicLines);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (!std::isfinite(pointOrigin[axis]))
-    {
-      throw granular::LimitError("PointOrigin must be finite");
-    }
-    request.point_origin[axis] = pointOrigin[axis];
-  }
-  return request;
-}
-
 void FillRows(vtkTable* rows, granular::LocalFrame& frame)
 {
   const auto count = static_cast<vtkIdType>(frame.table.rows);

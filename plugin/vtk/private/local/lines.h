@@ -26,11 +26,6 @@ constexpr const char* RowArray = "row";
 constexpr const char* PartArray = "part";
 
 /**
- * Returns the options of lines that users set: PeriodicLines as in the core, and a point origin, which must be finite.
- */
-granular::LineRequest MakeLineRequest(int periodicLines, const double pointOrigin[3]);
-
-/**
  * Fills the table with the rows of a frame of local data. Takes over their memory.
  */
 void FillRows(vtkTable* rows, granular::LocalFrame& frame);

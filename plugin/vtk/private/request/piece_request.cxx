@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/request/piece_request.h"
 
-#include "granular/common/archive.h"
 #include "granular/common/shares.h"
 
 #include "vtkInformation.h"
@@ -9,7 +8,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace vtkGranularPrivate
 {
@@ -38,25 +36,5 @@ std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) 
   const auto first = [&](int piece)
   { return piece < this->Pieces ? granular::begin_of_part(count, piece, this->Pieces) : count; };
   return { first(this->Piece), first(this->Piece + 1) };
-}
-
-bool AskTogether(granular::Communicator& ranks, const PieceRequest& wanted,
-  const std::set<std::string>& arrays, const std::function<void(granular::ArchiveWriter&)>& form)
-{
-  granular::ArchiveWriter same;
-  same.number(wanted.Pieces);
-  form(same);
-  for (const std::string& name : arrays)
-  {
-    same.text(name);
-  }
-  const std::string own = std::to_string(wanted.Piece) + ' ' + same.bytes;
-  bool together = wanted.Pieces == ranks.size();
-  const std::vector<std::string> all = ranks.all_gather(own);
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    together = together && all[rank] == std::to_string(rank) + ' ' + same.bytes;
-  }
-  return together;
 }
 }

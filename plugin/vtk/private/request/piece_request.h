@@ -2,14 +2,8 @@
 #ifndef vtkGranularPieceRequest_h
 #define vtkGranularPieceRequest_h
 
-#include "granular/common/archive.h"
-#include "granular/parallel/communicator.h"
-
 #include "vtkType.h"
 
-#include <functional>
-#include <set>
-#include <string>
 #include <utility>
 
 class vtkInformation;
@@ -37,14 +31,6 @@ struct PieceRequest
    */
   std::pair<vtkTypeInt64, vtkTypeInt64> RangeOf(vtkTypeInt64 count) const;
 };
-
-/**
- * Returns true if the ranks request the pieces of one thing, each its own; they then read it together. Otherwise each
- * rank is alone, for example if a filter asks one rank for another time. Ranks that read together must agree on the
- * names of the arrays and on everything that form(archive) writes. Collective.
- */
-bool AskTogether(granular::Communicator& ranks, const PieceRequest& wanted,
-  const std::set<std::string>& arrays, const std::function<void(granular::ArchiveWriter&)>& form);
 }
 
 #endif
