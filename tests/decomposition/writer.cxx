@@ -2,7 +2,6 @@
 // What vtkGranularDecompositionWriter writes of which cells, under which names, and what it refuses.
 #include "vtkGranularDecompositionWriter.h"
 
-#include "../support/small_disk.h"
 #include "../support/whole_file_writers.h"
 
 #include "vtkCellData.h"
@@ -330,33 +329,6 @@ TEST(DecompositionWriter, Refused)
   writer.ExpectUnsupported(
     "expected a name that ends in .vtk or .decomposition: the dialect PUBLIC has no .vtu");
   EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
-}
-
-TEST(DecompositionWriter, FullDisk)
-{
-  const SmallDisk disk(std::string(GRANULAR_OUTPUT) + "/small_disk");
-  if (!disk.there())
-  {
-    GTEST_SKIP() << SmallDisk::not_there;
-  }
-  std::vector<Bounds> many(10000, Two[0]);
-  for (const char* name : { "a.vtk", "a.vtu" })
-  {
-    const std::string path = disk.path(name);
-    std::ofstream(path) << "old";
-    CellWriter writer(path, MakeGrid(many));
-    writer.ExpectError(
-      vtkErrorCode::OutOfDiskSpaceError, path + ": cannot write: No space left on device");
-    EXPECT_EQ(Content(path), "old");
-    writer->SetInputData(MakeTwo());
-    writer.ExpectWritten();
-    EXPECT_NE(Content(path), "old");
-    std::filesystem::remove(path);
-    EXPECT_EQ(Beside(path), Lines{});
-  }
-  CellWriter nowhere("/nonexistent/a.vtk", MakeTwo());
-  nowhere.ExpectError(
-    vtkErrorCode::FileNotFoundError, "/nonexistent/a.vtk: cannot write: No such file or directory");
 }
 
 TEST(DecompositionWriter, FileAStep)

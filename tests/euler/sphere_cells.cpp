@@ -105,37 +105,6 @@ Vector3 middle_of(const EulerGrid& grid, const Cell& cell)
 
 const EulerGrid six = { { 0, 0, 0 }, { 3, 2, 1 }, { 3, 2, 1 } };
 
-TEST(SphereCells, AGrainInOneCell)
-{
-  const SphereCells cells(six);
-  const auto shares = find(cells, six, twofold({ 2.5, 1.5, 0.5 }), 0.5);
-  ASSERT_EQ(shares.size(), 1U);
-  EXPECT_EQ(shares[0].cell, 5);
-  EXPECT_EQ(shares[0].volume, sphere_volume(0.5));
-}
-
-TEST(SphereCells, HalvesQuartersAndEighths)
-{
-  const SphereCells cells(six);
-  const auto halves = by_cell(find(cells, six, twofold({ 1, 0.5, 0.5 }), 0.25), six);
-  ASSERT_EQ(halves.size(), 2U);
-  EXPECT_DOUBLE_EQ(halves.at(0), sphere_volume(0.25) / 2);
-  EXPECT_DOUBLE_EQ(halves.at(1), sphere_volume(0.25) / 2);
-  const auto quarters = by_cell(find(cells, six, twofold({ 2, 1, 0.5 }), 0.25), six);
-  ASSERT_EQ(quarters.size(), 4U);
-  for (const std::int64_t cell : { 1, 2, 4, 5 })
-  {
-    EXPECT_DOUBLE_EQ(quarters.at(cell), sphere_volume(0.25) / 4);
-  }
-  const EulerGrid eight = { { -1, -1, -1 }, { 1, 1, 1 }, { 2, 2, 2 } };
-  const auto eighths = by_cell(find(SphereCells(eight), eight, {}, 1), eight);
-  ASSERT_EQ(eighths.size(), 8U);
-  for (const auto& [cell, volume] : eighths)
-  {
-    EXPECT_DOUBLE_EQ(volume, sphere_volume(1) / 8) << cell;
-  }
-}
-
 TEST(SphereCells, WhatIsOutsideIsInNone)
 {
   const SphereCells cells(six);
@@ -201,16 +170,6 @@ TEST(SphereCells, SharesAddUpToTheSphere)
   expect_whole(random, { 124, 124, 124 }); // a million
   expect_whole(random, { 1, 1, 1e5 });     // plates
   expect_whole(random, { 0.1, 400, 400 }); // needles
-}
-
-TEST(SphereCells, SharesOfAlignedSpheresAddUp)
-{
-  for (const std::int64_t n : { 1, 2, 3, 4, 7, 8, 20, 50 })
-  {
-    const EulerGrid grid = { { -1, -1, -1 }, { 1, 1, 1 }, { n, n, n } };
-    const auto shares = find(SphereCells(grid), grid, {}, 1);
-    EXPECT_NEAR(sum(shares) / sphere_volume(1), 1, 1e-13) << n;
-  }
 }
 
 // ---- each cell ---------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 // What vtkGranularEulerWriter writes of which data, under which names, and what it refuses.
 #include "vtkGranularEulerWriter.h"
 
-#include "../support/small_disk.h"
 #include "../support/whole_file_writers.h"
 #include "made_files.h"
 
@@ -313,38 +312,6 @@ TEST(EulerWriter, Refused)
     Lines{ "expected Dialect 0 (LIGGGHTS) or 1 (Wide) or 2 (Automatic), got 3" });
   EXPECT_EQ(writer->GetDialect(), vtkGranularEulerWriter::AUTOMATIC);
   EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
-}
-
-TEST(EulerWriter, FullDisk)
-{
-  const SmallDisk disk(std::string(GRANULAR_OUTPUT) + "/small_disk");
-  if (!disk.there())
-  {
-    GTEST_SKIP() << SmallDisk::not_there;
-  }
-  const std::string path = disk.path("a.euler");
-  std::ofstream(path) << "old";
-  CellWriter writer(path, MakePoints(Centres({ 0, 0, 0 }, { 1, 1, 1 }, { 20, 20, 20 })));
-  writer.ExpectError(
-    vtkErrorCode::OutOfDiskSpaceError, path + ": cannot write: No space left on device");
-  EXPECT_EQ(Content(path), "old");
-  writer->SetInputData(MakeImage());
-  EXPECT_EQ(writer.Bytes(), GridText);
-}
-
-/// A file is written as often as somebody asks for it.
-TEST(EulerWriter, WrittenAgain)
-{
-  auto image = MakeImage();
-  AddField(image, "timestep", { 10 });
-  CellWriter writer(FreshName("a_*.euler"), image);
-  const std::string path = Near(writer->GetFileName(), "a_10.euler");
-  writer.ExpectWritten();
-  const Stamped stamped(path);
-  writer.ExpectWritten();
-  EXPECT_FALSE(stamped.IsUntouched());
-  EXPECT_EQ(writer.Said->Warnings, Lines{});
-  EXPECT_EQ(Content(path), GridText);
 }
 
 /// What is below six decimals is told, of the file.

@@ -16,7 +16,6 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -89,19 +88,6 @@ Box box_of(const Vector3& lo, const Vector3& hi, const std::string& boundary)
 const Box ten = box_of({ 0, 0, 0 }, { 10, 10, 10 }, "pp pp pp");
 
 // ---- made by hand ------------------------------------------------------------------------------
-
-TEST(Lines, ShortOnesStay)
-{
-  for (const PeriodicLines periodic :
-    { PeriodicLines::MinimumImage, PeriodicLines::Split, PeriodicLines::AsWritten })
-  {
-    const Made made = make({ { 1, 2, 3 } }, { { 4, 6, 3 } }, ten, periodic, { 1, 1, 1 });
-    EXPECT_EQ(made.lines, (std::vector<Line>{ { { 0, 1, 2 }, { 3, 5, 2 } } }));
-    EXPECT_EQ(made.lengths, (std::vector<double>{ 5 }));
-    EXPECT_TRUE(made.rows.empty());
-    EXPECT_EQ(made.moved, 0);
-  }
-}
 
 TEST(Lines, AcrossAFace)
 {
@@ -189,15 +175,6 @@ TEST(Lines, SeveralBoxesApart)
   // one place where it jumps, by as many boxes as it takes
   EXPECT_EQ(make({ { 9, 5, 5 } }, { { -29, 5, 5 } }, ten, PeriodicLines::Split).lines,
     (std::vector<Line>{ { { 9, 5, 5 }, { 10, 5, 5 } }, { { -30, 5, 5 }, { -29, 5, 5 } } }));
-}
-
-TEST(Lines, LongerThanHalfTheBox)
-{
-  // of a bond that long nobody can tell: the shorter way is drawn; of half the box both are as short
-  const Points first = { { 2, 5, 5 }, { 2, 5, 5 } };
-  const Points second = { { 8, 5, 5 }, { 7, 5, 5 } };
-  EXPECT_EQ(make(first, second, ten, PeriodicLines::MinimumImage).lines,
-    (std::vector<Line>{ { { 2, 5, 5 }, { -2, 5, 5 } }, { { 2, 5, 5 }, { 7, 5, 5 } } }));
 }
 
 TEST(Lines, AlongPeriodicAxesOnly)
@@ -631,34 +608,6 @@ TEST(Lines, ContactsOfLiggghts)
     EXPECT_EQ(split.lengths, made.lengths);
   }
   EXPECT_EQ(periodic, 14u);
-}
-
-/// LAMMPS writes how long its bonds are: column 4.
-TEST(Lines, BondsOfLammps)
-{
-  const TextFrame atoms = read_text_frames(GRANULAR_DATA "/good/chain.dump").at(0);
-  const TextFrame bonds = read_text_frames(GRANULAR_DATA "/good/local/chain_bonds.dump").at(0);
-  std::map<double, Vector3> points;
-  for (const std::vector<double>& row : atoms.rows)
-  {
-    points[row[0]] = { row[3], row[4], row[5] };
-  }
-  Points first, second;
-  for (const std::vector<double>& row : bonds.rows)
-  {
-    first.push_back(points.at(row[1]));
-    second.push_back(points.at(row[2]));
-  }
-  const Made made = make(first, second, box_of(bonds), PeriodicLines::MinimumImage);
-  for (std::size_t row = 0; row < bonds.rows.size(); ++row)
-  {
-    EXPECT_NEAR(made.lengths[row], bonds.rows[row][3], 1e-4);
-  }
-  EXPECT_GT(made.moved, 0);
-  const Made written = make(first, second, box_of(bonds), PeriodicLines::AsWritten);
-  EXPECT_EQ(std::count_if(
-              written.lengths.begin(), written.lengths.end(), [](double l) { return l > 1.01; }),
-    made.moved);
 }
 
 // All were printed with six digits: where an end is near the origin and the other one across the box, the other counts.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that were cut anywhere, that claim anything, and with any of their bytes changed: the right rows, or an error that
-// says where, in bounded memory; and the same whether a file was looked at once or while it grew.
+// Files that were cut anywhere, or claim anything: the right rows, or an error that says where, in bounded memory; and the
+// same whether a file was looked at once or while it grew. Other damage is for the fuzz targets.
 #include "local_files.h"
 
 #include "../support/memory_file.h"
@@ -190,27 +190,6 @@ TEST(LocalDamage, CutAnywhere)
   }
 }
 
-TEST(LocalDamage, AnyByteChanged)
-{
-  const std::int64_t before = peak_bytes();
-  for (const Form& form : forms())
-  {
-    SCOPED_TRACE(form.name);
-    const std::vector<std::string> paths = write_all("changed", form);
-    for (std::size_t file = 0; file < paths.size(); ++file)
-    {
-      change_each_byte(form.texts[file],
-        [&](const std::string& text)
-        {
-          put(name_of("changed", form, file), text);
-          read_all(paths);
-        });
-      put(name_of("changed", form, file), form.texts[file]);
-    }
-  }
-  EXPECT_LT(peak_bytes() - before, std::int64_t{ 64 } << 20);
-}
-
 // A count is a claim: there is no memory for rows that are not there.
 TEST(LocalDamage, ClaimsOfAnySize)
 {
@@ -239,34 +218,4 @@ TEST(LocalDamage, ClaimsOfAnySize)
     }
   }
   EXPECT_LT(peak_bytes() - before, std::int64_t{ 64 } << 20);
-}
-
-// Compressed files with any of their bytes changed: never other rows in silence.
-TEST(LocalDamage, CompressedFiles)
-{
-  const std::string text = forms()[0].texts[0];
-  LocalRun good({ put("packed/good.dump", text) });
-  const std::vector<std::string> expected = contents_of(good);
-  for (const auto compression : { granular::Compression::Gzip, granular::Compression::Zstd })
-  {
-    const std::string packed = granular::compress(text, compression);
-    int refused = 0;
-    for (std::size_t at = 0; at < packed.size(); ++at)
-    {
-      for (const int flip : { 0x01, 0x80 })
-      {
-        std::string bytes = packed;
-        bytes[at] = static_cast<char>(bytes[at] ^ flip);
-        const std::string path = put("packed/bad.dump", bytes);
-        LocalRun run;
-        const std::string error = error_of([&] { run.update({ path }); });
-        refused += error.empty() ? 0 : 1;
-        if (error.empty() && run.said().find("unchecked") == std::string::npos)
-        {
-          EXPECT_EQ(contents_of(run), expected) << at;
-        }
-      }
-    }
-    EXPECT_GT(refused, static_cast<int>(packed.size()));
-  }
 }

@@ -9,14 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace
 {
-using restart_builder::Grain;
 using restart_builder::RestartBuilder;
 
 /// What is said of bytes that have changed since the layout was found.
@@ -53,25 +51,6 @@ RestartBuilder bonds_file()
   return bonded_file({ { 17, { { 1, 18, history }, { 1, 19, history } } },
                        { 18, { { 1, 17, history } } }, { 19, { { 1, 17, history } } } },
     12);
-}
-
-RestartBuilder molecules_file()
-{
-  RestartBuilder builder;
-  builder.atom_style = "molecular";
-  for (std::int64_t id = 1; id <= 3; ++id)
-  {
-    Grain grain;
-    grain.tag = id;
-    restart_builder::Record record = restart_builder::common_block(grain);
-    const double one = restart_builder::bits_of(1);
-    restart_builder::append(record,
-      { restart_builder::bits_of(7), one, one, restart_builder::bits_of(id % 3 + 1), 0, 0, 0, 2,
-        0.5 });
-    builder.chunks[0].push_back(record);
-  }
-  builder.peratom_fixes = { { "of", "property/atom", 2 } };
-  return builder;
 }
 }
 
@@ -146,50 +125,6 @@ TEST(RestartDamage, FilesThatChange)
   bytes = spheres.file();
   put(bytes, first_record(spheres.file()), 34);
   EXPECT_NE(error_of(spheres.file(), bytes).find("expected 2 records, got 1"), std::string::npos);
-}
-
-// Each double of a file, each of these numbers.
-TEST(RestartDamage, EveryDouble)
-{
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  RestartBuilder alone = bonds_file();
-  alone.atom_style = "bond/gran";
-  alone.styles.clear();
-  for (auto& record : alone.chunks[0])
-  {
-    record = { record.begin() + 17, record.end() };
-  }
-  RestartBuilder first = bonds_file();
-  first.styles = { "bond/gran", "granular" };
-  for (auto& record : first.chunks[0])
-  {
-    restart_builder::Record sphere(record.begin(), record.begin() + 17);
-    sphere[0] = 17;
-    record = restart_builder::join({ { record.begin() + 17, record.end() }, sphere });
-  }
-  RestartBuilder unknown = first;
-  unknown.styles = { "secret", "granular" };
-  unknown.bond_styles.clear();
-  int errors = 0;
-  int frames = 0;
-  for (const RestartBuilder& builder : { bonds_file(), alone, first, unknown, molecules_file() })
-  {
-    const std::string whole = builder.file();
-    for (std::size_t at = first_record(whole); at < whole.size(); at += 8)
-    {
-      for (const double number : { 0., -1., 0.5, 1., 12., 13., nan, infinity, -infinity, 1e300,
-             0x1p53, 0x1p31, -0x1p63, restart_builder::bits_of(1), restart_builder::bits_of(-1),
-             restart_builder::bits_of(std::int64_t{ 1 } << 40) })
-      {
-        std::string bytes = whole;
-        put(bytes, at, number);
-        ++(error_of(whole, bytes).empty() ? frames : errors);
-      }
-    }
-  }
-  EXPECT_GT(errors, 100);
-  EXPECT_GT(frames, 100);
 }
 
 // A number of history values without bonds costs nothing in the file, but arrays.
