@@ -93,7 +93,7 @@ private:
   vtkGranularGrainMapper(const vtkGranularGrainMapper&) = delete;
   void operator=(const vtkGranularGrainMapper&) = delete;
 
-  // How the coordinates of the buffers are counted: from a place, along axes (rows).
+  // Coordinates of the buffers are counted from a place, along axes (rows).
   struct Counting
   {
     bool operator==(const Counting&) const = default;
