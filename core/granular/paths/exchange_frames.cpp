@@ -220,32 +220,67 @@ void exchange_frames(
     return static_cast<std::size_t>(
       std::upper_bound(first_ids.begin(), first_ids.end(), id) - first_ids.begin());
   };
-
+  // for each rank, of each frame how many
   const auto size = static_cast<std::size_t>(ranks.size());
-  for (PathFrame& frame : frames)
+  const std::size_t all = size * frames.size();
+  std::vector<ByRank> sorted;
+  Numbers counts(all);
+  for (const PathFrame& frame : frames)
   {
-    const ByRank sorted =
-      sort_by_rank(frame.ids.size(), size, [&](std::size_t i) { return owner_of(frame.ids[i]); });
-    const Numbers come = swap_numbers(sorted.counts, ranks);
-    const auto move = [&](auto& values, std::size_t width)
+    sorted.push_back(
+      sort_by_rank(frame.ids.size(), size, [&](std::size_t i) { return owner_of(frame.ids[i]); }));
+    for (std::size_t rank = 0; rank < size; ++rank)
     {
-      std::remove_reference_t<decltype(values)> out;
-      out.reserve(values.size());
-      for (const std::int64_t place : sorted.places)
-      {
-        const auto* const first = values.data() + static_cast<std::size_t>(place) * width;
-        out.insert(out.end(), first, first + width);
-      }
-      values = trade(out, sorted.counts, come, ranks, width);
-    };
-    move(frame.points, 3);
-    move(frame.images, frame.has_images ? 3 : 0);
-    move(frame.rows, frame.has_rows ? 1 : 0);
-    for (PathArray& array : frame.arrays)
-    {
-      move(array.words, static_cast<std::size_t>(array.size));
+      counts[rank * frames.size() + sorted.size() - 1] = sorted.back().counts[rank];
     }
-    move(frame.ids, 1);
   }
+  const Numbers of_rank(size, std::ssize(frames));
+  const Numbers came_counts = trade(counts, of_rank, of_rank, ranks);
+  // one message for a column of all frames
+  const auto move = [&](const auto& values_of, const auto& width_of)
+  {
+    Numbers out(size);
+    Numbers in(size);
+    std::vector<std::size_t> next(frames.size());
+    std::remove_cvref_t<decltype(values_of(frames[0]))> column;
+    for (std::size_t i = 0; i < all; ++i)
+    {
+      const std::size_t f = i % frames.size();
+      const auto width = static_cast<std::int64_t>(width_of(frames[f]));
+      out[i / frames.size()] += counts[i] * width;
+      in[i / frames.size()] += came_counts[i] * width;
+      for (std::int64_t n = 0; n < counts[i]; ++n)
+      {
+        const auto first = values_of(frames[f]).begin() + sorted[f].places[next[f]++] * width;
+        column.insert(column.end(), first, first + width);
+      }
+    }
+    std::ranges::for_each(frames, [&](PathFrame& frame) { values_of(frame) = {}; });
+    column = trade(column, out, in, ranks);
+    auto from = column.begin();
+    for (std::size_t i = 0; i < all; ++i)
+    {
+      PathFrame& frame = frames[i % frames.size()];
+      const auto end = from + came_counts[i] * static_cast<std::int64_t>(width_of(frame));
+      values_of(frame).insert(values_of(frame).end(), from, end);
+      from = end;
+    }
+  };
+  move(
+    [](PathFrame & frame) -> auto& { return frame.points; }, [](const PathFrame&) { return 3; });
+  move(
+    [](PathFrame & frame) -> auto& { return frame.images; },
+    [](const PathFrame& frame) { return frame.has_images ? 3 : 0; });
+  move(
+    [](PathFrame & frame) -> auto& { return frame.rows; },
+    [](const PathFrame& frame) { return frame.has_rows ? 1 : 0; });
+  for (std::size_t a = 0; !frames.empty() && a < frames.front().arrays.size(); ++a)
+  {
+    move(
+      [a](PathFrame & frame) -> auto& { return frame.arrays[a].words; },
+      [a](const PathFrame& frame) { return frame.arrays[a].size; });
+  }
+  move(
+    [](PathFrame & frame) -> auto& { return frame.ids; }, [](const PathFrame&) { return 1; });
 }
 }
