@@ -167,7 +167,7 @@ bool is_fitting_file(const std::string& name)
   const fs::file_status status = fs::status(name, error);
   if (status.type() == fs::file_type::none)
   {
-    throw IoError("cannot tell whether this is a file: " + error.message(), { name },
+    throw IoError("cannot open: " + error.message(), { name },
       static_cast<std::errc>(error.value()));
   }
   return fs::is_regular_file(status);
