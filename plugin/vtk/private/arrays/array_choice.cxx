@@ -24,17 +24,18 @@ ArrayChoice::~ArrayChoice() = default;
 void ArrayChoice::Offer(const ArrayNames& arrays)
 {
   const bool chosen = !this->AreAllOn();
-  this->Names.clear();
+  decltype(this->Names)
+    offered; // known when all is done: what fails for want of memory is done again
   for (const auto& [name, on] : arrays)
   {
-    this->Names.emplace(name, on);
+    offered.emplace(name, on);
   }
   std::map<std::string, bool> states = this->GetStates();
   std::vector<std::string> kept;
   for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
   {
     const std::string name = this->Selection->GetArrayName(i);
-    if (this->Names.count(name) != 0)
+    if (offered.count(name) != 0)
     {
       kept.push_back(name);
       continue;
@@ -67,6 +68,7 @@ void ArrayChoice::Offer(const ArrayNames& arrays)
   set({}, most);
   set(each[1 - most], 1 - most);
   set(all, most);
+  this->Names.swap(offered);
 }
 
 std::map<std::string, bool> ArrayChoice::GetStates() const
