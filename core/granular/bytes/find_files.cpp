@@ -167,8 +167,8 @@ bool is_fitting_file(const std::string& name)
   const fs::file_status status = fs::status(name, error);
   if (status.type() == fs::file_type::none)
   {
-    throw IoError("cannot open: " + error.message(), { name },
-      static_cast<std::errc>(error.value()));
+    throw IoError(
+      "cannot open: " + error.message(), { name }, static_cast<std::errc>(error.value()));
   }
   return fs::is_regular_file(status);
 }
