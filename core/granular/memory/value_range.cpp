@@ -80,7 +80,7 @@ bool add_rows(const T* values, std::size_t rows, ValueRange::Bounds* components,
         __builtin_shufflevector(powers[1], powers[2], 0, 3);
     }
     sums.add(sum);
-    none |= sum != sum;
+    none |= sum != sum; // NOLINT(misc-redundant-expression): not a number
   }
   for (std::size_t i = 0; i < n; ++i)
   {
