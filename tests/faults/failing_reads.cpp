@@ -203,7 +203,7 @@ protected:
     static_cast<std::string*>(said)->append(text).append("\n");
   }
 
-  /// What there is to be seen, of a run that may know the files already, while calls fail.
+  /// Looks at all frames of a run, which may know the files already, while calls fail.
   Look look(RunHandle& run, const FailingCalls& calls = {}) const
   {
     Look seen;
