@@ -240,6 +240,13 @@ assert log["CPU"].tolist() == [0, 0.5]
 log = read(written(BLOCKS.replace("v_a", "\nv_a").rsplit("\n", 2)[0] + "\n"), "made.txt:5: the last block ends early")
 assert len(log) == 1
 
+# ---- after the line about memory, any words are the names of columns ----
+for name in ("1", "nan", "1e5"):
+    for names, row in ((f"Step {name} Volume", "{0} 0.5 {0}"), (f"{name} Step Volume", "0.5 {0} {0}")):
+        log = read(written(TABLE + f"Loop time of 1\n{MEMORY}  {names} \n  {row.format(20)} \n  {row.format(30)} \nLoop time of 1\n"))
+        assert log.steps.tolist() == [0, 10, 20, 30] and log.runs[1][name].tolist() == [0.5, 0.5]
+        assert log.runs[1]["Volume"].tolist() == [20, 30] and log.runs[1].line == 7
+
 # ---- other output that looks like rows or names ----
 log = read(written("Memory usage per processor = 4 Mbytes\n    Step Temp Press \n       0 1 2 \n10 7 8\n      10 3 4 \n30\nERROR x\n"
                    "      20 5 6\nStep by step\n20 steps\n      30 7 8\nLoop time of 1\nStep aside\n40 1\n"),

@@ -450,7 +450,7 @@ class _Reader:
                 return False
         if after_memory and first.startswith(b"WARNING"):
             self._after_memory = True
-        elif after_memory and not any(_numbers([word]) for word in words):
+        elif after_memory:
             self._expect([os.fsdecode(word) for word in words], number, is_sure=True)
             return False
         if self._names and self._begin(line, words, number):
@@ -489,8 +489,8 @@ class _Reader:
         return self._end()
 
     def _step(self, words: list[bytes], number: int, after_memory: bool) -> bool:
-        """Names of columns that begin with Step."""
-        if any(_numbers([word]) for word in words[1:]):
+        """Names of columns that begin with Step. After the line about memory they may be numbers: LIGGGHTS prints compute 1 as "1"."""
+        if not after_memory and any(_numbers([word]) for word in words[1:]):
             return False
         self._expect([os.fsdecode(word) for word in words], number, after_memory)
         return True
