@@ -12,6 +12,16 @@
 
 namespace granular
 {
+/// Returns the bytes of so many items of a width.
+inline std::vector<std::int64_t> to_bytes(std::vector<std::int64_t> counts, std::size_t width)
+{
+  for (std::int64_t& count : counts)
+  {
+    count *= static_cast<std::int64_t>(width);
+  }
+  return counts;
+}
+
 /// Sends out[r] items of so many values each to rank r, stored one rank after the other. Returns the received items, in[r] of
 /// them from rank r, by rank. Collective.
 template <class Values>
@@ -19,18 +29,11 @@ auto trade(const Values& values, const std::vector<std::int64_t>& out,
   const std::vector<std::int64_t>& in, Communicator& ranks, std::size_t width = 1)
 {
   using Value = std::ranges::range_value_t<Values>;
-  const auto to_bytes = [&](std::vector<std::int64_t> counts)
-  {
-    for (std::int64_t& count : counts)
-    {
-      count *= static_cast<std::int64_t>(width * sizeof(Value));
-    }
-    return counts;
-  };
   const auto all = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
   std::vector<Value> came(width * static_cast<std::size_t>(all));
-  ranks.exchange(reinterpret_cast<const char*>(values.data()), to_bytes(out),
-    reinterpret_cast<char*>(came.data()), to_bytes(in));
+  const std::size_t bytes = width * sizeof(Value);
+  ranks.exchange(reinterpret_cast<const char*>(values.data()), to_bytes(out, bytes),
+    reinterpret_cast<char*>(came.data()), to_bytes(in, bytes));
   return came;
 }
 

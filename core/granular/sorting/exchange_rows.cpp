@@ -54,15 +54,6 @@ std::vector<std::int64_t> count_parts(
   std::transform(counts.begin(), counts.end(), begins.begin(), counts.begin(), std::minus<>());
   return counts;
 }
-
-std::vector<std::int64_t> to_bytes(std::vector<std::int64_t> rows, std::size_t width)
-{
-  for (std::int64_t& count : rows)
-  {
-    count *= static_cast<std::int64_t>(width);
-  }
-  return rows;
-}
 }
 
 RowExchange::RowExchange(
