@@ -4,14 +4,16 @@
 #include "vtkCamera.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkGranularFewGrains.h"
 #include "vtkGranularGrainMapper.h"
 #include "vtkGranularGrainShapes.h"
 #include "vtkHardwareSelector.h"
+#include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -19,11 +21,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 namespace
 {
 using namespace vtkGranularPlaceInView;
+
+// Spreads ids that follow each other: the high half of the product with the golden ratio.
+std::uint64_t HashOf(std::uint64_t id)
+{
+  return id * 0x9e3779b97f4a7c15U >> 32U;
+}
+
+// Returns about one point of so many, without cells: those that a hash of the point array `id` chooses, so that they are the same
+// ones in each frame and on any number of ranks; without ids, a hash of the number of the point.
+vtkSmartPointer<vtkPolyData> ChooseFew(vtkPolyData* data, vtkIdType every)
+{
+  vtkDataArray* ids = data->GetPointData()->GetArray("id");
+  ids = ids && ids->GetNumberOfComponents() == 1 ? ids : nullptr;
+  vtkNew<vtkIdList> chosen;
+  vtkNew<vtkIdList> places;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<std::int64_t>(ids ? ids->GetComponent(i, 0) : i);
+    if (HashOf(static_cast<std::uint64_t>(id)) % static_cast<std::uint64_t>(every) == 0)
+    {
+      places->InsertNextId(chosen->InsertNextId(i));
+    }
+  }
+  auto few = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(data->GetPoints()->GetDataType());
+  data->GetPoints()->GetPoints(chosen, points);
+  few->SetPoints(points);
+  few->GetPointData()->CopyAllOn();
+  few->GetPointData()->CopyAllocate(data->GetPointData(), chosen->GetNumberOfIds());
+  few->GetPointData()->CopyData(data->GetPointData(), chosen, places);
+  few->GetFieldData()->ShallowCopy(data->GetFieldData());
+  return few;
+}
 
 vtkSmartPointer<vtkPolyData> CountedFrom(const Place& place, vtkPolyData* data)
 {
@@ -236,8 +273,7 @@ const vtkGranularGrainBlocks::Mappers& vtkGranularGrainBlocks::ChooseBlocks()
     this->FewBlocks.clear();
     for (const auto& block : this->Blocks)
     {
-      Add(this->FewBlocks, vtkGranularFewGrains::Choose(block->GetInput(), this->Every),
-        block->GetFlatIndex());
+      Add(this->FewBlocks, ChooseFew(block->GetInput(), this->Every), block->GetFlatIndex());
     }
     this->FewEvery = this->Every;
   }

@@ -6,7 +6,6 @@
 #include "granular/data_file/data_file.h"
 #include "granular/data_file/read_data.h"
 
-#include "vtkDataArraySelection.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -96,42 +95,9 @@ vtkGranularDataFileReader::vtkGranularDataFileReader()
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkGranularDataFileReader::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
 vtkPolyData* vtkGranularDataFileReader::GetBonds()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDataFileReader::SetStride(vtkTypeInt64 stride)
-{
-  if (stride < 1)
-  {
-    vtkErrorMacro("Stride must be at least 1, got " << stride);
-    return;
-  }
-  if (this->Stride != stride)
-  {
-    this->Stride = stride;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularDataFileReader::GetPointDataArraySelection()
-{
-  return this->Series->Points.GetSelection();
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularDataFileReader::GetCellDataArraySelection()
-{
-  return this->Series->Cells.GetSelection();
 }
 
 //------------------------------------------------------------------------------
@@ -146,16 +112,5 @@ void vtkGranularDataFileReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "AtomStyle: " << this->AtomStyle << "\n";
   os << indent << "Boundary: " << this->Boundary << "\n";
-  os << indent << "Coordinates: " << this->Coordinates << "\n";
   os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
-     << this->PointOrigin[2] << "\n";
-  os << indent << "SortById: " << (this->SortById ? "On" : "Off") << "\n";
-  os << indent << "Stride: " << this->Stride << "\n";
-  os << indent << "RegionOfInterest:";
-  for (double bound : this->RegionOfInterest)
-  {
-    os << " " << bound;
-  }
-  os << "\n";
 }

@@ -20,6 +20,8 @@
  * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid). All outputs carry the field data of
  * vtkGranularDumpReader.
  *
+ * The selections have the arrays of the first and the last file: all on, except coordinate columns.
+ *
  * A pipeline may ask for any piece of any number. The pieces hold each particle and bond once, in the order of the whole.
  */
 
@@ -27,34 +29,23 @@
 #define vtkGranularDataFileReader_h
 
 #include "vtkGranularModule.h" // For export macro
-#include "vtkGranularSeriesReader.h"
+#include "vtkGranularParticleReader.h"
 
 #include <string> // for std::string
 
-class vtkDataArraySelection;
 class vtkPolyData;
 
-class VTKGRANULAR_EXPORT vtkGranularDataFileReader : public vtkGranularSeriesReader
+class VTKGRANULAR_EXPORT vtkGranularDataFileReader : public vtkGranularParticleReader
 {
 public:
   static vtkGranularDataFileReader* New();
-  vtkTypeMacro(vtkGranularDataFileReader, vtkGranularSeriesReader);
+  vtkTypeMacro(vtkGranularDataFileReader, vtkGranularParticleReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
   /**
-   * Returns the particles, and the bonds.
+   * Returns the bonds.
    */
-  vtkPolyData* GetOutput();
   vtkPolyData* GetBonds();
-  ///@}
-
-  enum CoordinatesType
-  {
-    ABSOLUTE = 0,
-    UNWRAPPED = 1,
-    SCALED = 2
-  };
 
   enum PeriodicLinesType
   {
@@ -84,65 +75,12 @@ public:
 
   ///@{
   /**
-   * Sets the form of the points, as in vtkGranularDumpReader. ABSOLUTE by default.
-   */
-  vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
-  vtkGetMacro(Coordinates, int);
-  ///@}
-
-  ///@{
-  /**
    * Sets how lines across periodic faces of the box are drawn. MINIMUM_IMAGE, the default: to the nearest image of the
    * second particle; the line is short and may leave the box. SPLIT: from both particles to the faces, in parts.
    * AS_WRITTEN: from end to end, through the whole box.
    */
   vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sets a point that is subtracted from all points, in double precision and before any rounding; for data far from the
-   * origin. Any finite numbers; (0, 0, 0) by default.
-   */
-  vtkSetVector3Macro(PointOrigin, double);
-  vtkGetVector3Macro(PointOrigin, double);
-  ///@}
-
-  ///@{
-  /**
-   * Sorts the particles by id. Off by default.
-   */
-  vtkSetMacro(SortById, bool);
-  vtkGetMacro(SortById, bool);
-  vtkBooleanMacro(SortById, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Sets the stride: n keeps the particles whose id is a multiple of n. Numbers below 1 are an error and change nothing. 1
-   * by default: all particles.
-   */
-  void SetStride(vtkTypeInt64 stride);
-  vtkGetMacro(Stride, vtkTypeInt64);
-  ///@}
-
-  ///@{
-  /**
-   * Sets a region, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: only particles whose centres are
-   * inside are kept. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles, by default.
-   */
-  vtkSetVector6Macro(RegionOfInterest, double);
-  vtkGetVector6Macro(RegionOfInterest, double);
-  ///@}
-
-  ///@{
-  /**
-   * Returns the selection of the particle or the bond arrays. UpdateInformation() fills it with the arrays of the first
-   * and the last file: all on, except coordinate columns.
-   */
-  virtual vtkDataArraySelection* GetPointDataArraySelection();
-  virtual vtkDataArraySelection* GetCellDataArraySelection();
   ///@}
 
   /**
@@ -161,12 +99,7 @@ private:
 
   std::string AtomStyle;
   std::string Boundary;
-  int Coordinates = ABSOLUTE;
   int PeriodicLines = MINIMUM_IMAGE;
-  double PointOrigin[3] = { 0, 0, 0 };
-  bool SortById = false;
-  vtkTypeInt64 Stride = 1;
-  double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
 
   struct Internals;
 };

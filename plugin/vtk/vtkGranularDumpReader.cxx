@@ -8,9 +8,7 @@
 #include "granular/dump/formats/dump_files.h"
 #include "granular/dump/read/dump_reader.h"
 
-#include "vtkDataArraySelection.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 
 #include <algorithm>
 #include <memory>
@@ -120,36 +118,9 @@ vtkGranularDumpReader::vtkGranularDumpReader()
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkGranularDumpReader::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularDumpReader::CanReadFile(const char* fileName)
 {
   return granular::is_dump_file(fileName ? fileName : "") ? 1 : 0;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDumpReader::SetStride(vtkTypeInt64 stride)
-{
-  if (stride < 1)
-  {
-    vtkErrorMacro("Stride must be at least 1, got " << stride);
-    return;
-  }
-  if (this->Stride != stride)
-  {
-    this->Stride = stride;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularDumpReader::GetPointDataArraySelection()
-{
-  return this->Series->Points.GetSelection();
 }
 
 //------------------------------------------------------------------------------
@@ -157,17 +128,6 @@ void vtkGranularDumpReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ColumnNames: " << this->ColumnNames << "\n";
-  os << indent << "Coordinates: " << this->Coordinates << "\n";
   os << indent << "PointPrecision: " << this->PointPrecision << "\n";
-  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
-     << this->PointOrigin[2] << "\n";
-  os << indent << "SortById: " << (this->SortById ? "On" : "Off") << "\n";
   os << indent << "Vertices: " << this->Vertices << "\n";
-  os << indent << "Stride: " << this->Stride << "\n";
-  os << indent << "RegionOfInterest:";
-  for (double bound : this->RegionOfInterest)
-  {
-    os << " " << bound;
-  }
-  os << "\n";
 }

@@ -24,6 +24,7 @@
  * (3), `BoxVectors` (9: a, b, c), `BoxBounds` (the header's own numbers: xlo xhi ylo yhi zlo zhi, and xy xz yz of a tilted box),
  * `Boundary` (such as "pp pp ff"), `Columns` (in the file's order and spelling), `timestep` (int64), and, if the file has them,
  * `label`, `units` and `time`. `ParticlesLeftOut` names Stride or RegionOfInterest if they leave out particles.
+ * GetPointDataArraySelection has the arrays of all frames: on, except coordinate columns.
  * The reader reads only the current frame, the arrays that are on, and the rows of Stride and RegionOfInterest.
  *
  * A pipeline may ask for any piece of any number, such as one per rank. The pieces hold each particle once, in the order of the whole.
@@ -35,36 +36,21 @@
 #define vtkGranularDumpReader_h
 
 #include "vtkGranularModule.h" // For export macro
-#include "vtkGranularSeriesReader.h"
+#include "vtkGranularParticleReader.h"
 
 #include <string> // for std::string
-
-class vtkDataArraySelection;
-class vtkPolyData;
 
 namespace vtkGranularPrivate
 {
 struct ReaderFrames;
 }
 
-class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkGranularSeriesReader
+class VTKGRANULAR_EXPORT vtkGranularDumpReader : public vtkGranularParticleReader
 {
 public:
   static vtkGranularDumpReader* New();
-  vtkTypeMacro(vtkGranularDumpReader, vtkGranularSeriesReader);
+  vtkTypeMacro(vtkGranularDumpReader, vtkGranularParticleReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * Returns the particles.
-   */
-  vtkPolyData* GetOutput();
-
-  enum CoordinatesType
-  {
-    ABSOLUTE = 0,
-    UNWRAPPED = 1,
-    SCALED = 2
-  };
 
   enum VerticesType
   {
@@ -92,39 +78,11 @@ public:
 
   ///@{
   /**
-   * Sets the form of the points, which are computed if the file holds another form. ABSOLUTE, the default: in the box, as
-   * the simulation holds them. UNWRAPPED: plus the image counts times the box vectors. SCALED: in units of the box
-   * vectors, 0 to 1 inside the box.
-   */
-  vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
-  vtkGetMacro(Coordinates, int);
-  ///@}
-
-  ///@{
-  /**
    * Sets the precision of the points: vtkAlgorithm::SINGLE_PRECISION (7 digits of the coordinate minus PointOrigin, half
    * the memory) or vtkAlgorithm::DOUBLE_PRECISION, the default.
    */
   vtkSetClampMacro(PointPrecision, int, SINGLE_PRECISION, DOUBLE_PRECISION);
   vtkGetMacro(PointPrecision, int);
-  ///@}
-
-  ///@{
-  /**
-   * Sets a point that is subtracted from the points and from the corners of the box, in double precision and before any
-   * rounding. Unit: length, or box vectors where Coordinates is SCALED. Any finite numbers; (0, 0, 0) by default.
-   */
-  vtkSetVector3Macro(PointOrigin, double);
-  vtkGetVector3Macro(PointOrigin, double);
-  ///@}
-
-  ///@{
-  /**
-   * Sorts the particles of a frame by id. Files without ids keep their order. Off by default.
-   */
-  vtkSetMacro(SortById, bool);
-  vtkGetMacro(SortById, bool);
-  vtkBooleanMacro(SortById, bool);
   ///@}
 
   ///@{
@@ -135,30 +93,6 @@ public:
   vtkGetMacro(Vertices, int);
   ///@}
 
-  ///@{
-  /**
-   * Sets the stride: n keeps the particles whose id is a multiple of n; without ids, every n-th row from the first.
-   * Numbers below 1 are an error and change nothing. 1 by default: all particles.
-   */
-  void SetStride(vtkTypeInt64 stride);
-  vtkGetMacro(Stride, vtkTypeInt64);
-  ///@}
-
-  ///@{
-  /**
-   * Sets a region, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: only particles whose centres are
-   * inside are kept. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles, by default.
-   */
-  vtkSetVector6Macro(RegionOfInterest, double);
-  vtkGetVector6Macro(RegionOfInterest, double);
-  ///@}
-
-  /**
-   * Returns the selection of the point arrays. UpdateInformation() fills it with the arrays of all frames: on, except
-   * coordinate columns. The choice stays when the files are read again.
-   */
-  virtual vtkDataArraySelection* GetPointDataArraySelection();
-
 protected:
   vtkGranularDumpReader();
   ~vtkGranularDumpReader() override = default;
@@ -168,13 +102,8 @@ private:
   void operator=(const vtkGranularDumpReader&) = delete;
 
   std::string ColumnNames;
-  int Coordinates = ABSOLUTE;
   int PointPrecision = DOUBLE_PRECISION;
-  double PointOrigin[3] = { 0, 0, 0 };
-  bool SortById = false;
   int Vertices = VERTEX;
-  vtkTypeInt64 Stride = 1;
-  double RegionOfInterest[6] = { 1, -1, 1, -1, 1, -1 };
 
   friend struct vtkGranularPrivate::ReaderFrames;
   struct Internals;

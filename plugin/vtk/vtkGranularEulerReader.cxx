@@ -304,12 +304,6 @@ vtkGranularEulerReader::vtkGranularEulerReader()
 }
 
 //------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularEulerReader::GetPointDataArraySelection()
-{
-  return this->Series->Points.GetSelection();
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularEulerReader::CanReadFile(const char* fileName)
 {
   return granular::is_euler_file(fileName ? fileName : "") ? 1 : 0;

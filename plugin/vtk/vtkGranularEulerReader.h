@@ -12,6 +12,9 @@
  * The timestep is the last number in the file name that differs between the files. If several files have one timestep, the last file
  * counts, unless SetRepeatedSteps declares them pieces. vtkGranularSeriesReader tells which frames there are, and their times.
  *
+ * GetPointDataArraySelection has the arrays of the first frame that has cells: all on. Arrays of other frames are read unless they
+ * are off here.
+ *
  * The output has one point for each cell (vtkPolyData), or the cells themselves: see SetOutputType. Field data: the smallest box
  * around all points or cells as BoxOrigin, BoxVectors and BoxBounds, and `timestep`. A frame without cells gives an empty output of
  * the same type.
@@ -22,8 +25,6 @@
 
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
-
-class vtkDataArraySelection;
 
 class VTKGRANULAR_EXPORT vtkGranularEulerReader : public vtkGranularSeriesReader
 {
@@ -50,12 +51,6 @@ public:
   vtkSetClampMacro(OutputType, int, POINTS, IMAGE_DATA);
   vtkGetMacro(OutputType, int);
   ///@}
-
-  /**
-   * Returns the selection of the arrays. UpdateInformation() fills it with the arrays of the first frame that has cells:
-   * all on. Arrays of other frames are read unless they are off here. The choice stays when the files are read again.
-   */
-  virtual vtkDataArraySelection* GetPointDataArraySelection();
 
   /**
    * Returns 1 if the contents of the file are those of dump euler/vtk, and 0 for other .vtk files. Never fails.

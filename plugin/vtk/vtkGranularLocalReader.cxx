@@ -9,7 +9,6 @@
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"
 
-#include "vtkDataArraySelection.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
@@ -212,12 +211,6 @@ vtkPolyData* vtkGranularLocalReader::GetOutput()
 vtkTable* vtkGranularLocalReader::GetRows()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularLocalReader::GetCellDataArraySelection()
-{
-  return this->Series->Cells.GetSelection();
 }
 
 //------------------------------------------------------------------------------

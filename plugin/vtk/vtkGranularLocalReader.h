@@ -30,7 +30,6 @@
 
 #include <string> // for std::string
 
-class vtkDataArraySelection;
 class vtkPolyData;
 class vtkTable;
 
@@ -121,12 +120,6 @@ public:
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
   ///@}
-
-  /**
-   * Returns the selection of the arrays. UpdateInformation() fills it with the arrays of all frames: on, except position1
-   * and position2.
-   */
-  virtual vtkDataArraySelection* GetCellDataArraySelection();
 
   /**
    * Returns true if the first 64 KiB, decompressed, are text of dump local (ITEM: NUMBER OF, but not ATOMS). Returns

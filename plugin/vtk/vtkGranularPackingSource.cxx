@@ -4,7 +4,6 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
 #include "private/dump/dump_output.h"
-#include "private/local/bond_lines.h"
 #include "private/request/request_task.h"
 
 #include "granular/common/memory_error.h"
@@ -12,9 +11,14 @@
 #include "granular/packing/packing.h"
 #include "granular/packing/packing_plan.h"
 
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -22,6 +26,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
 using namespace vtkGranularPrivate;
 
@@ -63,6 +68,38 @@ granular::RadiusChoice::Kind KindOf(int value)
   }
   return value == vtkGranularPackingSource::ONE ? granular::RadiusChoice::Kind::One
                                                 : granular::RadiusChoice::Kind::Two;
+}
+
+vtkSmartPointer<vtkAbstractArray> TakeValues(
+  const char* name, granular::ValueType type, granular::Block& block, vtkIdType bonds)
+{
+  granular::DumpArray array;
+  array.info.name = name;
+  array.info.type = type;
+  array.info.columns = { 0 };
+  array.block = std::move(block);
+  return TakeArray(array, bonds, { { name, type } });
+}
+
+/**
+ * A line for each bond, with two points of its own. Takes over the memory of the bonds.
+ */
+void FillBonds(vtkPolyData* output, granular::GrainBonds& bonds)
+{
+  const auto count = static_cast<vtkIdType>(bonds.count);
+  output->SetPoints(TakePoints(bonds.points, 2 * count, false, {}));
+  output->SetLines(MakeCells(count, 2));
+  const auto length =
+    TakeValues("equilibrium_length", granular::ValueType::Float64, bonds.equilibrium_length, count);
+  vtkNew<vtkDoubleArray> present;
+  present->DeepCopy(length);
+  present->SetName("length");
+  vtkCellData* data = output->GetCellData();
+  data->AddArray(TakeValues("id1", granular::ValueType::Int64, bonds.id1, count));
+  data->AddArray(TakeValues("id2", granular::ValueType::Int64, bonds.id2, count));
+  data->AddArray(TakeValues("btype", granular::ValueType::Int32, bonds.btype, count));
+  data->AddArray(length);
+  data->AddArray(present);
 }
 }
 

@@ -136,18 +136,6 @@ vtkPolyData* vtkGranularRestartReader::GetBonds()
 }
 
 //------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularRestartReader::GetPointDataArraySelection()
-{
-  return this->Series->Points.GetSelection();
-}
-
-//------------------------------------------------------------------------------
-vtkDataArraySelection* vtkGranularRestartReader::GetCellDataArraySelection()
-{
-  return this->Series->Cells.GetSelection();
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularRestartReader::CanReadFile(const char* fileName)
 {
   return granular::is_restart_file(fileName ? fileName : "") ? 1 : 0;

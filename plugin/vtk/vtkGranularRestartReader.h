@@ -22,6 +22,9 @@
  *
  * Output port 2 holds the simulation box as one hexahedron (vtkUnstructuredGrid).
  *
+ * The selections have the arrays of the first and the last file: all on. Once some were switched off, arrays that come with another
+ * HistoryLayout or other files are off. Arrays that only other files have are read unless one is off.
+ *
  * The outputs carry the field data of vtkGranularDumpReader, and the first one `Groups`, the names of the bits of `mask`. A pipeline may
  * ask for any piece of any number. The pieces hold each particle and bond once, a bond with its particle id1. Each rank reads the whole
  * file if there are bonds.
@@ -33,7 +36,6 @@
 #include "vtkGranularModule.h" // For export macro
 #include "vtkGranularSeriesReader.h"
 
-class vtkDataArraySelection;
 class vtkPolyData;
 
 class VTKGRANULAR_EXPORT vtkGranularRestartReader : public vtkGranularSeriesReader
@@ -99,16 +101,6 @@ public:
    */
   vtkSetVector3Macro(PointOrigin, double);
   vtkGetVector3Macro(PointOrigin, double);
-  ///@}
-
-  ///@{
-  /**
-   * Returns the selection of the particle or the bond arrays. UpdateInformation() fills it with the arrays of the first
-   * and the last file, all on. Once some were switched off, arrays that come with another HistoryLayout or other files are
-   * off. Arrays that only other files have are read unless one is off.
-   */
-  virtual vtkDataArraySelection* GetPointDataArraySelection();
-  virtual vtkDataArraySelection* GetCellDataArraySelection();
   ///@}
 
   /**

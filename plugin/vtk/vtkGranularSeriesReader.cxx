@@ -65,6 +65,18 @@ const char* vtkGranularSeriesReader::GetFileName(int index)
 }
 
 //------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularSeriesReader::GetPointDataArraySelection()
+{
+  return this->Series->Points.GetSelection();
+}
+
+//------------------------------------------------------------------------------
+vtkDataArraySelection* vtkGranularSeriesReader::GetCellDataArraySelection()
+{
+  return this->Series->Cells.GetSelection();
+}
+
+//------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Refresh()
 {
   this->Series->Stale = true;

@@ -28,6 +28,8 @@
 
 #include <memory> // for std::unique_ptr
 
+class vtkDataArraySelection;
+
 class VTKGRANULAR_EXPORT vtkGranularSeriesReader : public vtkGranularAlgorithm
 {
 public:
@@ -49,6 +51,15 @@ public:
   void ClearFileNames();
   int GetNumberOfFileNames();
   VTK_FILEPATH const char* GetFileName(int index);
+  ///@}
+
+  ///@{
+  /**
+   * Returns the selection of the point or the cell arrays. UpdateInformation() fills it with those that the files have. The
+   * choice stays when the files are read again.
+   */
+  virtual vtkDataArraySelection* GetPointDataArraySelection();
+  virtual vtkDataArraySelection* GetCellDataArraySelection();
   ///@}
 
   /**
