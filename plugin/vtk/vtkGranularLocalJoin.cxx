@@ -13,8 +13,8 @@
 #include "granular/local/lines.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/gather.h"
+#include "granular/particles/frame_view.h"
 #include "granular/particles/point_forms.h"
-#include "granular/particles/shared_header.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

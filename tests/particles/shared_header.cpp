@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a rank without rows learns of a frame from the others.
-#include "granular/particles/shared_header.h"
+#include "granular/particles/frame_view.h"
 
 #include "../support/thread_ranks.h"
 

@@ -2,7 +2,7 @@
 // Particles of two frames compared: displacements in 113 bits, over ranks, and what is refused.
 #include "granular/paths/compare_particles.h"
 
-#include "granular/particles/shared_header.h"
+#include "granular/particles/frame_view.h"
 
 #include "../support/hard_case.h"
 #include "../support/quad.h"

@@ -20,35 +20,23 @@ class Groups
 public:
   /// owners: of each thing, from 0 to count - 1, or -1: of none.
   Groups(std::span<const std::int64_t> owners, std::size_t count)
-    : starts_(count + 1)
+    : things_(sort_by_rank(owners.size(), count,
+        [&](std::size_t i) { return std::min(static_cast<std::size_t>(owners[i]), count); }))
+    , ends_(count)
   {
-    for (const std::int64_t owner : owners)
-    {
-      starts_[static_cast<std::size_t>(owner + 1)] += owner >= 0 ? 1 : 0;
-    }
-    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-    things_.resize(static_cast<std::size_t>(starts_.back()));
-    Numbers next(starts_.begin(), starts_.end() - 1);
-    for (std::size_t i = 0; i < owners.size(); ++i)
-    {
-      if (owners[i] >= 0)
-      {
-        std::int64_t& place = next[static_cast<std::size_t>(owners[i])];
-        things_[static_cast<std::size_t>(place++)] = static_cast<std::int64_t>(i);
-      }
-    }
+    std::partial_sum(things_.counts.begin(), things_.counts.end(), ends_.begin());
   }
 
   std::span<const std::int64_t> of(std::int64_t owner) const noexcept
   {
-    const auto first = static_cast<std::size_t>(starts_[static_cast<std::size_t>(owner)]);
-    const auto last = static_cast<std::size_t>(starts_[static_cast<std::size_t>(owner) + 1]);
-    return std::span(things_).subspan(first, last - first);
+    const auto at = static_cast<std::size_t>(owner);
+    const auto size = static_cast<std::size_t>(things_.counts[at]);
+    return std::span(things_.places).subspan(static_cast<std::size_t>(ends_[at]) - size, size);
   }
 
 private:
-  Numbers starts_;
-  Numbers things_;
+  ByRank things_;
+  Numbers ends_;
 };
 
 /// Sends each number to its rank. Returns those that come, and how many from each rank.

@@ -9,7 +9,7 @@
 #include "granular/local/join.h"
 #include "granular/local/local_columns.h"
 #include "granular/parallel/gather.h"
-#include "granular/particles/view_frame.h"
+#include "granular/particles/dump_frame.h"
 #include "granular/sorting/sort_rows.h"
 
 #include <algorithm>

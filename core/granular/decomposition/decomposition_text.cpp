@@ -5,7 +5,6 @@
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/numbers/number_print.h"
-#include "granular/numbers/text_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -88,7 +87,7 @@ void add_cells(std::string& text, std::string_view before, const std::vector<Sub
       text += before;
       for (const std::int64_t corner : voxel_corners)
       {
-        add_integer(text, static_cast<std::int64_t>(corners * p) + corner);
+        text += std::to_string(static_cast<std::int64_t>(corners * p) + corner);
         text += ' ';
       }
       text += '\n';
@@ -118,7 +117,7 @@ void add_values(std::string& text, const std::vector<Subdomain>& subdomains, T S
 {
   for (std::size_t p = 0; p < subdomains.size(); ++p)
   {
-    add_integer(text, subdomains[p].*value);
+    text += std::to_string(subdomains[p].*value);
     text += p % 9 == 8 ? " \n" : " ";
   }
   text += '\n';

@@ -5,7 +5,6 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/euler/cells.h"
-#include "granular/euler/fields.h"
 #include "granular/euler/grain_cells.h"
 #include "granular/euler/grain_values.h"
 #include "granular/grid/euler_grid.h"

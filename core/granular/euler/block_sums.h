@@ -5,7 +5,6 @@
 #include "granular/common/progress.h"
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/grid/euler_grid.h"
-#include "granular/grid/sum_blocks.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/sorting/block_rows.h"
@@ -20,6 +19,47 @@
 
 namespace granular
 {
+/// A grid divided into blocks of cells whose sums fit into the cache of a core.
+class SumBlocks
+{
+public:
+  static constexpr std::int64_t most_cells_of_block = 4096; ///< fits into 16 bits
+
+  explicit SumBlocks(const std::array<std::int64_t, 3>& cells) noexcept;
+
+  std::int64_t size() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
+
+  /// Returns the number of cells of the largest block.
+  std::int64_t largest() const noexcept { return largest_; }
+
+  CellRange range(std::int64_t block) const noexcept;
+
+  /// Calls visit(block) for each block that contains cells of the range.
+  template <class Visit>
+  void each(const CellRange& range, const Visit& visit) const
+  {
+    CellRange blocks;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (range.first[axis] >= range.last[axis])
+      {
+        return;
+      }
+      blocks.first[axis] = range.first[axis] >> shifts_[axis];
+      blocks.last[axis] = ((range.last[axis] - 1) >> shifts_[axis]) + 1;
+    }
+    blocks.each([&](const std::array<std::int64_t, 3>& at)
+      { visit((at[2] * blocks_[1] + at[1]) * blocks_[0] + at[0]); });
+  }
+
+private:
+  std::array<std::int64_t, 3> cells_;
+  std::array<int, 3> shifts_ = {}; ///< edges are powers of two
+  std::array<std::int64_t, 3> edges_ = {};
+  std::array<std::int64_t, 3> blocks_ = {};
+  std::int64_t largest_ = 1;
+};
+
 /// Sums in the cells of a grid over rows of all ranks, some blocks of cells at a time: all ranks work on the same blocks at
 /// the same time, and add up the integers of their sums, so that order, threads and ranks cannot matter.
 class BlockSums
@@ -142,12 +182,7 @@ public:
       progress_);
   }
 
-  double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept
-  {
-    const auto [x, y, z] = cell;
-    return edges_[0][static_cast<std::size_t>(x)] * edges_[1][static_cast<std::size_t>(y)] *
-      edges_[2][static_cast<std::size_t>(z)];
-  }
+  double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept;
 
 private:
   SumBlocks blocks_;

@@ -2,7 +2,6 @@
 #include "granular/euler/euler_text.h"
 
 #include "granular/numbers/number_print.h"
-#include "granular/numbers/text_lines.h"
 #include "granular/particles/rounding_loss.h"
 
 #include <algorithm>

@@ -28,33 +28,6 @@ struct Conversion
   return axis.shift == 0 ? 0.0 : axis.shift * images[k];
 }
 
-/// Cartesian from scaled or cartesian columns; the box is axis-aligned.
-[[gnu::always_inline]] inline void to_cartesian_aligned(
-  const Conversion& c, const double* images, double* point) noexcept
-{
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const PositionPlan::Axis& axis = c.plan.axes[k];
-    const double shift = shift_of(axis, images, k);
-    CompensatedSum sum;
-    if (axis.column >= 0 && axis.scaled)
-    {
-      sum.add(c.box.origin[k]);
-      sum.add_product(point[k], c.box.vectors[k][k]);
-    }
-    else
-    {
-      sum.add(point[k]);
-    }
-    if (axis.shift != 0)
-    {
-      sum.add_product(shift, c.box.vectors[k][k]);
-    }
-    sum.add(-c.point_origin[k]);
-    point[k] = sum.value();
-  }
-}
-
 /// Returns true if component k of the box vector j is a term of coordinate k at all. One that is 0 by the
 /// shape of the box is none: a grain that was lost along j keeps its coordinate k.
 [[gnu::always_inline]] inline bool reaches(const Box& box, std::size_t j, std::size_t k) noexcept
@@ -62,7 +35,8 @@ struct Conversion
   return j == k || box.vectors[j][k].hi != 0;
 }
 
-[[gnu::always_inline]] inline void to_cartesian_tilted(
+/// Cartesian from scaled or cartesian columns.
+[[gnu::always_inline]] inline void to_cartesian(
   const Conversion& c, const double* images, double* point) noexcept
 {
   const Vector3 given = { point[0], point[1], point[2] };
@@ -195,7 +169,7 @@ bool places_scaled(const Conversion& c) noexcept
       { return axis.column >= 0 && axis.scaled && axis.shift == 0; });
 }
 
-/// Does the work of to_cartesian_aligned then. Eight points at once: compilers find vector instructions for them.
+/// Does the work of to_cartesian then. Eight points at once: compilers find vector instructions for them.
 [[gnu::always_inline]] inline void place_rows(
   const Conversion& c, std::span<double> points) noexcept
 {
@@ -250,13 +224,9 @@ bool places_scaled(const Conversion& c) noexcept
     {
       to_scaled(c, image, point);
     }
-    else if (c.box.tilted)
-    {
-      to_cartesian_tilted(c, image, point);
-    }
     else
     {
-      to_cartesian_aligned(c, image, point);
+      to_cartesian(c, image, point);
     }
     image += step;
   }

@@ -60,15 +60,6 @@ std::array<std::int64_t, 2> PeriodicImages::find_range(
     static_cast<std::int64_t>(std::clamp(last, -most, most)) };
 }
 
-/// The coordinate of image k.
-Twofold PeriodicImages::moved(std::size_t axis, double x, std::int64_t k) const noexcept
-{
-  Expansion<5> sum;
-  sum.add(x);
-  sum.add_product(static_cast<double>(k), axes_[axis].length);
-  return sum.twofold();
-}
-
 Twofold PeriodicImages::moved(
   std::size_t axis, double x, const std::array<std::int64_t, 3>& k) const noexcept
 {

@@ -31,7 +31,7 @@ public:
   /// Returns true if a particle surely has no image in the grid but itself.
   bool alone(const double* centre, double radius) const noexcept
   {
-    return !tilted_ && this->alone(0, centre[0], radius) && this->alone(1, centre[1], radius) &&
+    return this->alone(0, centre[0], radius) && this->alone(1, centre[1], radius) &&
       this->alone(2, centre[2], radius);
   }
 
@@ -45,27 +45,29 @@ public:
     this->each(centre, Vector3{ radius, radius, radius }, visit);
   }
 
-  /// The same for what reaches that far along each axis.
+  /// The same for what reaches that far along each axis. In a tilted box the last vector alone has a part along z, and only
+  /// the first has none along y: axis by axis, the last one first, images are as far apart as in a straight box.
   template <class Visit>
   void each(const double* centre, const Vector3& reach, const Visit& visit) const
   {
-    if (tilted_)
+    std::array<std::int64_t, 3> k = {};
+    const auto place = [&](std::size_t axis)
     {
-      this->each_tilted(centre, reach, visit);
-      return;
-    }
-    CellRange images;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+      const bool itself = k[axis] == 0 && (!tilted_ || k == std::array<std::int64_t, 3>{});
+      return itself ? Twofold{ centre[axis], 0 } : this->moved(axis, centre[axis], k);
+    };
+    const auto along = [&](std::size_t axis, const auto& next)
     {
-      const auto [first, last] = this->range(axis, centre[axis], reach[axis]);
-      images.first[axis] = first;
-      images.last[axis] = last + 1;
-    }
-    images.each(
-      [&](const std::array<std::int64_t, 3>& k)
+      const auto [first, last] = this->range(axis, place(axis).value(), reach[axis]);
+      for (k[axis] = first; k[axis] <= last; ++k[axis])
       {
-        visit(Twofold3{ this->place(0, centre[0], k[0]), this->place(1, centre[1], k[1]),
-          this->place(2, centre[2], k[2]) });
+        next();
+      }
+      k[axis] = 0;
+    };
+    along(2,
+      [&] {
+        along(1, [&] { along(0, [&] { visit(Twofold3{ place(0), place(1), place(2) }); }); });
       });
   }
 
@@ -97,7 +99,7 @@ private:
   bool alone(std::size_t axis, double x, double radius) const noexcept
   {
     const Axis& a = axes_[axis];
-    return !a.repeats || (x - radius > a.lo && x + radius < a.hi);
+    return !a.repeats || (!tilted_ && x - radius > a.lo && x + radius < a.hi);
   }
 
   /// The first and the last.
@@ -108,44 +110,13 @@ private:
   }
   std::array<std::int64_t, 2> find_range(std::size_t axis, double x, double radius) const noexcept;
 
-  Twofold place(std::size_t axis, double x, std::int64_t k) const noexcept
-  {
-    return k == 0 ? Twofold{ x, 0 } : this->moved(axis, x, k);
-  }
-  Twofold moved(std::size_t axis, double x, std::int64_t k) const noexcept;
-
-  /// The last vector alone has a part along z, and only the first has none along y: axis by axis, the last one first, images
-  /// are as far apart as in a straight box.
-  template <class Visit>
-  void each_tilted(const double* centre, const Vector3& reach, const Visit& visit) const
-  {
-    std::array<std::int64_t, 3> k = {};
-    const auto place = [&](std::size_t axis) { return this->moved(axis, centre[axis], k); };
-    const auto along = [&](std::size_t axis, const auto& next)
-    {
-      k[axis] = 0;
-      const auto [first, last] = axes_[axis].repeats
-        ? this->find_range(axis, place(axis).value(), reach[axis])
-        : std::array<std::int64_t, 2>{};
-      for (k[axis] = first; k[axis] <= last; ++k[axis])
-      {
-        next();
-      }
-      k[axis] = 0;
-    };
-    along(2,
-      [&] {
-        along(1, [&] { along(0, [&] { visit(Twofold3{ place(0), place(1), place(2) }); }); });
-      });
-  }
-
   /// The coordinate of the image that is so many of each vector of the box away.
   Twofold moved(std::size_t axis, double x, const std::array<std::int64_t, 3>& k) const noexcept;
 
   EulerGrid grid_;
   std::array<Axis, 3> axes_;
   bool tilted_ = false;
-  std::array<Twofold3, 3> vectors_ = {}; ///< of a tilted box
+  std::array<Twofold3, 3> vectors_ = {}; ///< of the box
   bool of_centres_ = false;
 };
 }

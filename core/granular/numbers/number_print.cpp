@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/numbers/number_print.h"
 
+#include "granular/common/error.h"
 #include "granular/numbers/decimal.h"
 #include "granular/numbers/number.h"
 #include "granular/numbers/number_print_few.h"
@@ -12,6 +13,7 @@
 #include <charconv>
 #include <cmath>
 #include <string>
+#include <system_error>
 
 namespace granular
 {
@@ -303,5 +305,43 @@ char* print_fixed(char* to, double value) noexcept
 char* print_integer(char* to, std::int64_t value) noexcept
 {
   return print_whole(to, value);
+}
+
+NumberFormat parse_number_format(std::string_view text)
+{
+  if (text == "Automatic")
+  {
+    return automatic_numbers;
+  }
+  if (text == "%g")
+  {
+    return { 6 };
+  }
+  if (text == "shortest")
+  {
+    return { 0 };
+  }
+  if (text.size() >= 4 && text.starts_with("%.") && text.ends_with('g'))
+  {
+    const std::string_view number = text.substr(2, text.size() - 3);
+    int digits = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), digits);
+    if (error == std::errc{} && end == number.data() + number.size() && number[0] != '0' &&
+      digits >= 1 && digits <= 17)
+    {
+      return { digits };
+    }
+  }
+  throw FormatError(
+    "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
+    std::string(text) + "'");
+}
+
+std::string to_text(NumberFormat format)
+{
+  return format == automatic_numbers ? "Automatic"
+    : format.digits == 0             ? "shortest"
+    : format.digits == 6             ? "%g"
+                                     : "%." + std::to_string(format.digits) + "g";
 }
 }

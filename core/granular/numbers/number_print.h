@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace granular
 {
@@ -53,5 +54,24 @@ double as_fixed(double value) noexcept;
 
 /// Prints an integer as %d does, and returns the end.
 char* print_integer(char* to, std::int64_t value) noexcept;
+
+/// Appends a line of words and integers.
+template <class... Words>
+void add_line(std::string& text, const Words&... words)
+{
+  const auto add = [&](const auto& word)
+  {
+    if constexpr (std::is_convertible_v<decltype(word), std::string_view>)
+    {
+      text += word;
+    }
+    else
+    {
+      text += std::to_string(word);
+    }
+  };
+  (add(words), ...);
+  text += '\n';
+}
 }
 #endif

@@ -4,7 +4,7 @@
 #include "granular/packing/packing_plan.h"
 #include "granular/packing/random_numbers.h"
 #include "granular/parallel/executor.h"
-#include "granular/particles/frame_ranges.h"
+#include "granular/particles/dump_frame.h"
 
 #include <algorithm>
 #include <string>

@@ -7,7 +7,9 @@
 #include "granular/geometry/positions.h"
 #include "granular/memory/block.h"
 #include "granular/memory/value_range.h"
+#include "granular/particles/frame_view.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,5 +37,27 @@ struct DumpFrame
   FrameHeader header;  ///< of the first piece; rows of all
   ColumnSchema schema; ///< of all pieces, with the final types
 };
+
+/// The ranges of the points and of each array of a frame, found part by part. Texts have none.
+class FrameRanges
+{
+public:
+  /// Begins with no rows of a frame.
+  explicit FrameRanges(const DumpFrame& frame);
+
+  /// Includes rows of a frame with such arrays. single: its points are floats.
+  void add(const DumpFrame& frame, std::int64_t first, std::size_t rows, bool single = false);
+  void add(const FrameRanges& other);
+
+  /// Gives the ranges to the frame.
+  void store(DumpFrame& frame) const;
+
+private:
+  ValueRange points_ = ValueRange(3);
+  std::vector<ValueRange> arrays_;
+};
+
+/// Returns a view of a decoded frame, without its texts. Points, if there are any, are doubles. The frame must outlive it.
+FrameView view_frame(const DumpFrame& frame, const Vector3& point_origin = {});
 }
 #endif

@@ -16,6 +16,8 @@
 
 namespace granular
 {
+class Communicator;
+
 /// An array in someone else's memory: rows of one or more values.
 struct ArrayView
 {
@@ -83,5 +85,10 @@ struct FrameView
     return found == arrays.end() ? nullptr : &*found;
   }
 };
+
+/// Gives ranks without rows, whose frame may lack everything, the header, box and form of points of the first rank that has
+/// rows. If no rank has rows, the first one with a box counts. Throws Error, on all ranks, if ranks with rows have different
+/// boxes. Collective.
+void share_header(FrameView& frame, Communicator& ranks);
 }
 #endif

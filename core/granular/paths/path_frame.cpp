@@ -7,8 +7,8 @@
 #include "granular/local/id_finder.h"
 #include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
+#include "granular/particles/dump_frame.h"
 #include "granular/particles/point_forms.h"
-#include "granular/particles/view_frame.h"
 
 #include <algorithm>
 #include <array>

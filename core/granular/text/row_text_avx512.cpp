@@ -4,7 +4,6 @@
 #if GRANULAR_X86
 
 #include "granular/common/intrinsics.h"
-#include "granular/text/row_text_tables.h"
 
 #include <utility>
 

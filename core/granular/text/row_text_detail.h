@@ -2,9 +2,21 @@
 #ifndef granular_text_row_text_detail_h
 #define granular_text_row_text_detail_h
 
-// Parts that the decoders of the instruction sets share. Only for row_text*.cpp.
+// Parts, batches and tables that the decoders of the instruction sets share. Only for row_text*.cpp.
 
+#include "granular/numbers/decimal.h"
+#include "granular/numbers/number.h"
+#include "granular/numbers/number_scan.h"
 #include "granular/text/row_text.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace granular::row_text
 {
@@ -22,6 +34,83 @@ void decode_plain(
   const char* last, RowPlan& plan, std::int64_t max_rows, RowResult& result) noexcept;
 
 #if GRANULAR_X86
+inline constexpr std::ptrdiff_t batch_bytes = 16384;
+
+/// The edges of words in up to batch_bytes of text, with some extra room because groups are written without checks.
+struct Edges
+{
+  std::uint32_t count;
+  std::uint32_t lines;
+  alignas(64) std::uint16_t offsets[batch_bytes + 128];
+  alignas(64) std::uint16_t line_ends[batch_bytes + 128];
+};
+
+/// The lines of a batch: where each ends, and how many words it has.
+struct Lines
+{
+  std::uint32_t count;
+  std::uint16_t ends[batch_bytes];
+  std::uint16_t words[batch_bytes];
+};
+
+/// The rows of a batch, by the index of their first edge.
+struct Rows
+{
+  std::uint32_t count;
+  std::uint32_t end; ///< offset of the line behind the last row
+  bool surplus;      ///< a row had more words than columns
+  std::uint16_t first_edges[batch_bytes / 2];
+};
+
+/// The words of some columns of a batch, and the bits of their values.
+struct Words
+{
+  std::uint32_t count;
+  alignas(64) std::uint16_t edges[batch_bytes + 128];
+  alignas(64) std::uint64_t values[batch_bytes / 2 + 8];
+};
+
+/// State of a batch for the decoders.
+struct Batch
+{
+  Edges edges;
+  Lines lines;
+  Rows rows;
+  Words words;
+};
+
+/// The places of the bits of a byte, in order.
+alignas(64) inline constexpr auto bit_places = []
+{
+  std::array<std::array<std::uint8_t, 8>, 256> places{};
+  for (std::size_t byte = 0; byte < places.size(); ++byte)
+  {
+    std::size_t count = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit)
+    {
+      if ((byte >> bit & 1) != 0)
+      {
+        places[byte][count++] = bit;
+      }
+    }
+  }
+  return places;
+}();
+
+/// Returns eight characters. Compilers do not see this in load_eight where many are side by side.
+inline std::uint64_t load_at_once(const char* first) noexcept
+{
+  std::uint64_t bytes;
+  std::memcpy(&bytes, first, sizeof bytes);
+  return bytes;
+}
+
+struct BlockMarks
+{
+  std::uint64_t words; ///< bytes above ' '
+  std::uint64_t lines; ///< line feeds
+};
+
 namespace avx2
 {
 RowResult decode(

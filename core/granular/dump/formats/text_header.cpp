@@ -2,10 +2,11 @@
 #include "granular/dump/formats/text_header.h"
 
 #include "granular/numbers/number.h"
-#include "granular/numbers/printed_digits.h"
+#include "granular/numbers/number_scan.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -43,11 +44,33 @@ std::size_t find_glued_header(std::string_view line)
     ? 0
     : found;
 }
+
+/// The digits of %g, with which LIGGGHTS prints bounds.
+constexpr int fewest_digits = 6;
+
+/// Returns how far a number of six digits may be off because %g printed it: half a unit of the last one. Returns 0 for others,
+/// and for whole ones that end in 0.
+double rounding_of(std::string_view word, double value) noexcept
+{
+  const bool whole = word.find_first_of(".eE") == word.npos;
+  const bool is_round = digits_of(word) != fewest_digits || (whole && word.ends_with('0'));
+  return is_round || !std::isfinite(value)
+    ? 0
+    : 0.5 * std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - fewest_digits);
+}
 }
 
 std::vector<std::string_view> item_words(std::string_view line)
 {
   return take_item(line) ? split_words(line) : std::vector<std::string_view>();
+}
+
+int digits_of(std::string_view word) noexcept
+{
+  word = word.substr(0, word.find_first_of("eE"));
+  const std::size_t first = word.find_first_of("123456789");
+  return first == word.npos ? 0
+                            : static_cast<int>(std::ranges::count_if(word.substr(first), is_digit));
 }
 
 bool opens_frame(std::span<const std::string_view> words) noexcept

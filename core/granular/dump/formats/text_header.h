@@ -24,6 +24,9 @@ bool begins_with(
 /// before it.
 bool opens_frame(std::span<const std::string_view> words) noexcept;
 
+/// Returns the digits of a number before an exponent, from the first that is not 0.
+int digits_of(std::string_view word) noexcept;
+
 /// The things that rows stand for: ITEM: NUMBER OF ATOMS, or ENTRIES or any words of the user.
 enum class RowsOf : std::uint8_t
 {

@@ -3,7 +3,6 @@
 
 #include "granular/dump/formats/text_dump.h"
 #include "granular/dump/formats/text_header.h"
-#include "granular/numbers/printed_digits.h"
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
@@ -12,6 +11,15 @@
 
 namespace granular
 {
+namespace
+{
+/// Returns the significant digits of a real number as it is written; 0 of an integer, and of what is no number.
+int digits_of_real(std::string_view word) noexcept
+{
+  return word.find_first_of(".eE") == word.npos ? 0 : digits_of(word);
+}
+}
+
 TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   : source_(source)
   , entry_(entry)

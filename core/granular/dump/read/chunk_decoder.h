@@ -4,7 +4,7 @@
 
 #include "granular/dump/formats/frame_rows.h"
 #include "granular/dump/read/frame_layout.h"
-#include "granular/particles/frame_ranges.h"
+#include "granular/particles/dump_frame.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "granular/common/words.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/row_values.h"
-#include "granular/dump/write/table_columns.h"
 #include "granular/frames/header_archive.h"
 #include "granular/parallel/gather.h"
 #include "granular/particles/rounding_loss.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/dump/write/table_columns.h"
+#include "granular/dump/write/column_plan.h"
 
 #include <map>
 #include <set>

@@ -4,7 +4,7 @@
 #include "private/request/expect_data.h"
 
 #include "granular/common/error.h"
-#include "granular/particles/shared_header.h"
+#include "granular/particles/frame_view.h"
 
 #include "vtkPointSet.h"
 

@@ -13,7 +13,6 @@
 #include "granular/euler/cell_weights.h"
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
-#include "granular/euler/fields.h"
 #include "granular/euler/grain_values.h"
 #include "granular/parallel/executor.h"
 

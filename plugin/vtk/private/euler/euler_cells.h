@@ -4,7 +4,6 @@
 
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
-#include "granular/euler/fields.h"
 #include "granular/geometry/box.h"
 #include "granular/grid/euler_grid.h"
 

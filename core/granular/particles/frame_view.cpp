@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/particles/shared_header.h"
+#include "granular/particles/frame_view.h"
 
 #include "granular/common/error.h"
 #include "granular/frames/header_archive.h"
