@@ -8,8 +8,6 @@
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 
-#include <cstdint>
-
 namespace granular
 {
 /// Adds the contacts to averages in cells: their stress, which is branch_a force_b over the volume, shared among the cells along

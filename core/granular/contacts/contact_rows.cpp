@@ -4,11 +4,8 @@
 #include "granular/common/error.h"
 #include "granular/parallel/gather.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdint>
-#include <vector>
 
 namespace granular
 {

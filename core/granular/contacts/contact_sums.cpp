@@ -15,8 +15,6 @@
 #include <cstring>
 #include <limits>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 namespace granular
 {

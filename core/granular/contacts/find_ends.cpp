@@ -2,7 +2,6 @@
 #include "granular/contacts/find_ends.h"
 
 #include "granular/common/error.h"
-#include "granular/local/id_finder.h"
 #include "granular/parallel/gather.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/point_forms.h"

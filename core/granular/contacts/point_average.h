@@ -11,7 +11,6 @@
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
 
-#include <optional>
 #include <span>
 
 namespace granular

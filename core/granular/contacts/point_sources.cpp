@@ -7,9 +7,6 @@
 #include "granular/parallel/trade.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <numeric>
 #include <utility>

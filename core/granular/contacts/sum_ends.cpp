@@ -6,7 +6,6 @@
 #include "granular/memory/block.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>

@@ -7,9 +7,6 @@
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <numeric>
 #include <optional>
 #include <span>

@@ -6,12 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace granular
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/euler/grain_cells.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace granular

@@ -5,11 +5,6 @@
 #include "granular/grid/sphere_box.h"
 #include "granular/particles/point_forms.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
 namespace granular
 {
 namespace

@@ -4,9 +4,7 @@
 #include "granular/common/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
-#include <string>
 #include <string_view>
 
 namespace granular

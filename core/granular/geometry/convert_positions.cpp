@@ -5,7 +5,6 @@
 #include "granular/geometry/exact_determinant.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -2,7 +2,6 @@
 #include "granular/grid/cell_finder.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace granular
 {

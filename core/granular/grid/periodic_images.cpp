@@ -2,7 +2,6 @@
 #include "granular/grid/periodic_images.h"
 
 #include "granular/common/error.h"
-#include "granular/geometry/expansion.h"
 #include "granular/numbers/number_print.h"
 #include "granular/particles/point_forms.h"
 

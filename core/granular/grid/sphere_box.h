@@ -5,7 +5,6 @@
 #include "granular/geometry/box.h"
 
 #include <array>
-#include <cstddef>
 
 namespace granular
 {

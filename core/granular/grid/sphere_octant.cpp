@@ -2,7 +2,6 @@
 #include "granular/grid/sphere_box.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 

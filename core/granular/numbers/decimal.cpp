@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/numbers/decimal.h"
 
-#include <array>
 #include <bit>
-#include <cstddef>
 #include <limits>
 
 namespace granular

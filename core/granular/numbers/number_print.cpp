@@ -12,7 +12,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <string>
 #include <system_error>
 
 namespace granular

@@ -4,11 +4,8 @@
 #include "granular/common/error.h"
 #include "granular/particles/point_forms.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace granular

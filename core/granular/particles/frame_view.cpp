@@ -5,11 +5,8 @@
 #include "granular/frames/header_archive.h"
 #include "granular/parallel/gather.h"
 
-#include <algorithm>
 #include <bit>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace granular
 {

@@ -4,7 +4,6 @@
 #include "granular/geometry/exact_determinant.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace granular

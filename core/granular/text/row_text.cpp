@@ -7,7 +7,6 @@
 #include "granular/text/row_text_detail.h"
 
 #include <cstring>
-#include <string_view>
 
 namespace granular
 {

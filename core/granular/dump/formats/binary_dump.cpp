@@ -2,11 +2,9 @@
 #include "granular/dump/formats/binary_dump.h"
 
 #include "granular/dump/formats/atom_fit.h"
-#include "granular/dump/formats/binary_header.h"
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <utility>
 
 namespace granular

@@ -4,7 +4,6 @@
 #include "granular/common/words.h"
 #include "granular/dump/formats/text_header.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>

@@ -3,14 +3,11 @@
 
 #include "granular/common/hash.h"
 #include "granular/dump/formats/atom_fit.h"
-#include "granular/dump/formats/text_header.h"
 #include "granular/numbers/number.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace granular

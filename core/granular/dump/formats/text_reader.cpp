@@ -3,13 +3,11 @@
 
 #include "granular/numbers/number.h"
 #include "granular/text/line_scan.h"
-#include "granular/text/text_scanner.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
-#include <string>
 
 namespace granular
 {

@@ -3,10 +3,8 @@
 
 #include "granular/dump/formats/text_dump.h"
 #include "granular/dump/formats/text_header.h"
-#include "granular/text/text_scanner.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace granular

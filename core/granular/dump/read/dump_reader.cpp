@@ -8,7 +8,6 @@
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 #include "granular/parallel/gather.h"
-#include "granular/particles/dump_frame.h"
 #include "granular/sorting/sort_rows.h"
 
 #include <algorithm>

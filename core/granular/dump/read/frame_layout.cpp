@@ -4,7 +4,6 @@
 #include "granular/geometry/region.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>

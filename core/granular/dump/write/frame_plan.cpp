@@ -9,7 +9,6 @@
 #include "granular/particles/rounding_loss.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 

@@ -4,7 +4,6 @@
 #include "granular/common/words.h"
 #include "granular/numbers/number_cells.h"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <iterator>
