@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <optional>
 
 namespace granular
@@ -145,14 +144,8 @@ std::vector<double> load_radii(const FrameView& particles, const std::string& na
   {
     throw Error("expected an array '" + name + "' of numbers, got texts");
   }
-  std::vector<std::int64_t> rows(static_cast<std::size_t>(particles.rows));
-  std::iota(rows.begin(), rows.end(), std::int64_t{ 0 });
-  radii.resize(rows.size());
-  load_numbers(*source, rows, radii.data());
-  for (double& radius : radii)
-  {
-    radius *= source->factor;
-  }
+  radii.reserve(static_cast<std::size_t>(particles.rows));
+  for_each_number(*source, particles.rows, [&](double radius) { radii.push_back(radius); });
   return radii;
 }
 

@@ -235,21 +235,9 @@ double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communi
       {
         throw Error("expected an array '" + arrays.radius + "' of radii, got none");
       }
-      std::vector<std::int64_t> rows(GrainBlock::most_rows);
-      std::vector<double> values(rows.size());
-      for (std::int64_t first = 0; first < frame.rows;
-           first += static_cast<std::int64_t>(rows.size()))
-      {
-        const auto count = static_cast<std::size_t>(
-          std::min(frame.rows - first, static_cast<std::int64_t>(rows.size())));
-        std::iota(rows.begin(), rows.end(), first);
-        load_numbers(*radius, std::span(rows).first(count), values.data());
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          const double value = values[i] * radius->factor;
-          largest = std::isfinite(value) ? std::max(largest, value) : largest;
-        }
-      }
+      const auto include = [&](double value)
+      { largest = std::isfinite(value) ? std::max(largest, value) : largest; };
+      for_each_number(radius.value_or(ValueSource{}), frame.rows, include);
       return std::ranges::max(gather(ranks, largest));
     });
 }

@@ -171,10 +171,10 @@ double Kernel::volume() const noexcept
   return 4 * pi / 3 * cube;
 }
 
-/// With an exact decision about the edge.
-double Kernel::point_value(const Vector3& to_point) const noexcept
+/// The value where an exact decision about the edge says that it is inside.
+double Kernel::point_value(const Vector3& to_point, bool inside) const noexcept
 {
-  return square_minus(to_point, widths_ * widths_, width_) < 0
+  return inside
     ? this->value(std::min(dot(to_point, to_point), std::nextafter(support_square_, 0.0)))
     : 0;
 }
@@ -183,19 +183,12 @@ double Kernel::line_mean(const Vector3& to_point, const Vector3& branch) const n
 {
   const double longest = largest_of(branch);
   const double farthest = largest_of(to_point);
-  if (longest == 0)
-  {
-    return this->point_value(to_point);
-  }
   const double squares = widths_ * widths_;
-  if (longest < shortest * width_)
+  if (longest == 0 || longest < shortest * width_)
   {
     const double beyond = square_minus(to_point, squares, width_);
-    const bool inside =
-      beyond < 0 || (beyond == 0 && accurate_dot(to_point, scaled(branch, 900)) > 0);
-    return inside
-      ? this->value(std::min(dot(to_point, to_point), std::nextafter(support_square_, 0.0)))
-      : 0;
+    return this->point_value(
+      to_point, beyond < 0 || (beyond == 0 && accurate_dot(to_point, scaled(branch, 900)) > 0));
   }
   if (farthest > 2 * longest + 2 * this->support())
   {
@@ -227,16 +220,23 @@ double Kernel::line_mean(const Vector3& to_point, const Vector3& branch) const n
   return part.from < part.to ? std::clamp(this->integrate(part, to_point, b) / end, 0.0, 1.0) : 0;
 }
 
-/// Returns the integral of take(r^2) along the branch.
+/// Returns the integral of take(r^2) along a part of the branch.
 template <class Take>
-double Kernel::quadrature(double from, double to, const Take& take) const noexcept
+double Kernel::quadrature(double from, double to, const Vector3& to_point, const Vector3& branch,
+  const Take& take) const noexcept
 {
+  const auto at = [&](double s)
+  {
+    const Vector3 r = { to_point[0] - s * branch[0], to_point[1] - s * branch[1],
+      to_point[2] - s * branch[2] };
+    return take(dot(r, r));
+  };
   const double middle = from + (to - from) / 2;
   const double half = (to - from) / 2;
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
   {
-    sum += weights[i] * (take(middle - half * nodes[i]) + take(middle + half * nodes[i]));
+    sum += weights[i] * (at(middle - half * nodes[i]) + at(middle + half * nodes[i]));
   }
   return half * sum;
 }
@@ -254,13 +254,8 @@ double Kernel::integrate(
   }
   if ((chord.to - chord.from) * chord.length < width_ / 2)
   {
-    return this->quadrature(chord.from, chord.to,
-      [&](double s)
-      {
-        const Vector3 r = { to_point[0] - s * branch[0], to_point[1] - s * branch[1],
-          to_point[2] - s * branch[2] };
-        return std::exp(dot(r, r) * gauss_);
-      });
+    return this->quadrature(chord.from, chord.to, to_point, branch,
+      [&](double square) { return std::exp(square * gauss_); });
   }
   const double scale = chord.length / (width_ * std::numbers::sqrt2);
   const double difference =
@@ -283,12 +278,10 @@ double Kernel::integrate_lucy(
     const double last = std::abs(to - chord.foot);
     if (to - from < std::min(first, last) / 2)
     {
-      return this->quadrature(from, to,
-        [&](double s)
+      return this->quadrature(from, to, to_point, branch,
+        [&](double square)
         {
-          const Vector3 r = { to_point[0] - s * branch[0], to_point[1] - s * branch[1],
-            to_point[2] - s * branch[2] };
-          const double q = std::min(std::sqrt(dot(r, r)) * per_support_, 1.0);
+          const double q = std::min(std::sqrt(square) * per_support_, 1.0);
           const double rest = 1 - q;
           return (1 + 3 * q) * rest * rest * rest;
         });

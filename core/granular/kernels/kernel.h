@@ -73,13 +73,14 @@ public:
 private:
   struct Chord;
 
-  double point_value(const Vector3& to_point) const noexcept;
+  double point_value(const Vector3& to_point, bool inside) const noexcept;
   double integrate(
     const Chord& chord, const Vector3& to_point, const Vector3& branch) const noexcept;
   double integrate_lucy(
     const Chord& chord, const Vector3& to_point, const Vector3& branch) const noexcept;
   template <class Take>
-  double quadrature(double from, double to, const Take& take) const noexcept;
+  double quadrature(double from, double to, const Vector3& to_point, const Vector3& branch,
+    const Take& take) const noexcept;
 
   KernelShape shape_;
   double width_;

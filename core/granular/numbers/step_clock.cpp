@@ -17,32 +17,21 @@ __extension__ using Wide = unsigned __int128;
 /// The double nearest to digits * 10^power, whatever the number of digits.
 double nearest(Wide digits, int power) noexcept
 {
-  constexpr std::uint64_t billions = 1'000'000'000'000'000'000; // 10^18
-  constexpr std::size_t most_chars = 64;
   double value = 0;
   if (digits >> 64 == 0 && to_double(static_cast<std::uint64_t>(digits), power, value))
   {
     return value;
   }
-  std::array<char, most_chars> text;
-  char* const last = text.data() + text.size();
-  char* end = text.data();
-  std::array<std::uint64_t, 3> groups;
-  for (std::uint64_t& group : groups)
+  std::array<char, 64> text;
+  char* const exponent = text.data() + 40; // 2^128 has 39 digits
+  char* first = exponent;
+  for (; digits != 0; digits /= 10)
   {
-    group = static_cast<std::uint64_t>(digits % billions);
-    digits /= billions;
+    *--first = static_cast<char>('0' + static_cast<int>(digits % 10));
   }
-  for (std::size_t i = groups.size(); i-- > 0;)
-  {
-    // 10^18 more keeps the zeros in front; the 1 is overwritten by the last digit of the group before
-    char* const before = end;
-    end = std::to_chars(end, last, groups[i] + billions).ptr;
-    end = std::copy(before + 1, end, before);
-  }
-  *end++ = 'e';
-  end = std::to_chars(end, last, power).ptr;
-  parse_double(text.data(), end, value);
+  *exponent = 'e';
+  const char* const end = std::to_chars(exponent + 1, text.data() + text.size(), power).ptr;
+  parse_double(first, end, value);
   return value;
 }
 }

@@ -3,7 +3,6 @@
 
 #include "granular/geometry/exact_determinant.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace granular

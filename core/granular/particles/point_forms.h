@@ -7,8 +7,10 @@
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/frame_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,6 +23,22 @@ bool is_consecutive(std::span<const std::int64_t> rows) noexcept;
 /// Writes the values of some rows as double or std::int64_t, from any type but texts, not multiplied by the factor.
 template <class Number>
 void load_numbers(const ValueSource& source, std::span<const std::int64_t> rows, Number* to);
+
+/// Calls take(number) for each row of a source of any type but texts, multiplied by the factor.
+template <class Take>
+void for_each_number(const ValueSource& source, std::int64_t rows, const Take& take)
+{
+  constexpr std::int64_t most = 256; // at a time
+  std::array<std::int64_t, most> some;
+  std::array<double, most> numbers;
+  for (std::int64_t first = 0; first < rows; first += most)
+  {
+    const auto count = static_cast<std::size_t>(std::min(rows - first, most));
+    std::iota(some.begin(), some.end(), first);
+    load_numbers(source, std::span(some).first(count), numbers.data());
+    std::for_each_n(numbers.begin(), count, [&](double number) { take(number * source.factor); });
+  }
+}
 
 /// Returns true if sources are doubles of a row side by side, with factors of 1.
 bool are_rows(std::span<const ValueSource> sources) noexcept;

@@ -6,9 +6,6 @@
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <numeric>
 #include <optional>
 
 namespace granular
@@ -103,17 +100,7 @@ double smallest_radius(const FrameView& frame)
   {
     return loss.radius;
   }
-  constexpr std::int64_t most = 256; // at a time
-  std::array<double, most> values;
-  std::array<std::int64_t, most> rows;
-  for (std::int64_t first = 0; first < frame.rows; first += most)
-  {
-    const std::int64_t count = std::min(frame.rows - first, most);
-    std::iota(rows.begin(), rows.begin() + count, first);
-    load_numbers(*radii, std::span(rows).first(static_cast<std::size_t>(count)), values.data());
-    std::for_each(values.begin(), values.begin() + count,
-      [&](double radius) { loss.add_radius(radius * radii->factor); });
-  }
+  for_each_number(*radii, frame.rows, [&](double radius) { loss.add_radius(radius); });
   return loss.radius;
 }
 
