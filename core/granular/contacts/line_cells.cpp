@@ -12,7 +12,7 @@ double rounded(double place) noexcept
 }
 }
 
-LineCells::LineCells(const EulerGrid& grid, const GrainCells::Options& options, const Box* box)
+LineCells::LineCells(const EulerGrid& grid, const WeightOptions& options, const Box* box)
   : grid_(grid)
   , finder_(grid)
   , images_(grid, box)

@@ -24,7 +24,7 @@ namespace granular
 class LineCells
 {
 public:
-  LineCells(const EulerGrid& grid, const GrainCells::Options& options, const Box* box);
+  LineCells(const EulerGrid& grid, const WeightOptions& options, const Box* box);
   LineCells(const LineCells&) = delete;
   LineCells& operator=(const LineCells&) = delete;
 

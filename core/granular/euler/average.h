@@ -37,7 +37,7 @@ struct WantedCells
 struct EulerAverageRequest
 {
   EulerGrid grid;
-  GrainCells::Options cells;
+  WeightOptions cells;
   GrainArrays arrays;
   WantedCells wanted;     ///< of this rank
   bool keep_sums = false; ///< fill EulerAverages::sums

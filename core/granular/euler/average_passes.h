@@ -64,8 +64,6 @@ private:
   };
 
   void scan();
-  std::int64_t find_blocks(
-    const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const;
   void plan();
   void make_cells();
   void locate();

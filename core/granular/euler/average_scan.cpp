@@ -75,7 +75,16 @@ void AveragePasses::locate()
     [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
     {
       grains_.load(rows, grains);
-      counts[worker] += this->find_blocks(grains, rows.front() % rows_of_chunk, entries[chunk]);
+      const std::int64_t first = rows.front() % rows_of_chunk;
+      for (std::size_t i = 0; i < grains.rows; ++i)
+      {
+        const auto row = static_cast<std::uint32_t>(first + static_cast<std::int64_t>(i));
+        const bool inside = !grains.uses(i) ||
+          blocks_.add_entries(row, entries[chunk],
+            [&](const auto& visit)
+            { cells_.each_range(grains.positions + 3 * i, grains.radius[i], visit); });
+        counts[worker] += inside ? 0 : 1;
+      }
     });
   result_.outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
   blocks_.set_rows(blocks_.blocks().size() > 1
@@ -83,26 +92,6 @@ void AveragePasses::locate()
       : BlockRows::all(frame_.rows));
   found_.resize(cells_.is_direct() ? static_cast<std::size_t>(blocks_.rows().size()) : 0);
   ranks_.sum({ &result_.outside, 1 });
-}
-
-/// Adds an entry for each block that a grain may have a share in. Returns how many have none.
-std::int64_t AveragePasses::find_blocks(
-  const GrainBlock& grains, std::int64_t first_row, std::vector<BlockRows::Entry>& entries) const
-{
-  std::int64_t outside = 0;
-  for (std::size_t i = 0; i < grains.rows; ++i)
-  {
-    if (!grains.uses(i))
-    {
-      continue;
-    }
-    const auto row = static_cast<std::uint32_t>(first_row + static_cast<std::int64_t>(i));
-    const bool inside = blocks_.add_entries(row, entries,
-      [&](const auto& visit)
-      { cells_.each_range(grains.positions + 3 * i, grains.radius[i], visit); });
-    outside += inside ? 0 : 1;
-  }
-  return outside;
 }
 
 /// Plans the sums and the cells that they are for.

@@ -5,13 +5,12 @@
 
 namespace granular
 {
-GrainCells::GrainCells(const EulerGrid& grid, const Options& options, const Box* box)
+GrainCells::GrainCells(const EulerGrid& grid, const WeightOptions& options, const Box* box)
   : grid_(grid)
   , weights_(options.weights)
-  , spheres_(grid, options.short_cuts)
+  , spheres_(grid)
   , finder_(grid)
   , images_(grid, box)
-  , short_cuts_(options.short_cuts)
 {
   if (weights_ == CellWeights::Kernel)
   {

@@ -2,7 +2,6 @@
 #ifndef granular_euler_grain_cells_h
 #define granular_euler_grain_cells_h
 
-#include "granular/euler/cell_weights.h"
 #include "granular/geometry/box.h"
 #include "granular/grid/cell_finder.h"
 #include "granular/grid/euler_grid.h"
@@ -23,10 +22,8 @@ namespace granular
 class GrainCells
 {
 public:
-  using Options = WeightOptions;
-
   /// box: of which grains have images along its periodic axes, wherever the grid reaches; null, or a general one: none have.
-  GrainCells(const EulerGrid& grid, const Options& options, const Box* box);
+  GrainCells(const EulerGrid& grid, const WeightOptions& options, const Box* box);
   GrainCells(const GrainCells&) = delete;
   GrainCells& operator=(const GrainCells&) = delete;
 
@@ -91,8 +88,7 @@ public:
       return;
     }
     std::int64_t whole = 0;
-    if (short_cuts_ && images_.alone(centre, radius) &&
-      finder_.find_whole(centre, radius, within, whole))
+    if (images_.alone(centre, radius) && finder_.find_whole(centre, radius, within, whole))
     {
       add(whole, 1.0, volume);
       return;
@@ -189,7 +185,6 @@ private:
   CellFinder finder_;
   PeriodicImages images_;
   std::optional<SmoothCells> smooth_; ///< with a kernel
-  bool short_cuts_;
   int quantum_ = 0;
   double share_shift_ = 0; ///< 1.5 * 2^(52 + quantum)
 };

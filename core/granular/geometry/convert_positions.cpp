@@ -2,7 +2,7 @@
 #include "granular/geometry/positions.h"
 
 #include "granular/common/simd.h"
-#include "granular/geometry/exact_determinant.h"
+#include "granular/geometry/expansion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,8 @@ struct Conversion
   return j == k || box.vectors[j][k].hi != 0;
 }
 
-/// Cartesian from scaled or cartesian columns.
+/// Cartesian from scaled or cartesian columns. Without tilt each coordinate has terms of its own axis alone.
+template <bool tilted>
 [[gnu::always_inline]] inline void to_cartesian(
   const Conversion& c, const double* images, double* point) noexcept
 {
@@ -53,7 +54,7 @@ struct Conversion
     for (std::size_t j = 0; j < 3; ++j)
     {
       const PositionPlan::Axis& axis = c.plan.axes[j];
-      const bool term = reaches(c.box, j, k);
+      const bool term = tilted ? reaches(c.box, j, k) : j == k;
       if (term && axis.scaled)
       {
         sum.add_product(given[j], c.box.vectors[j][k]);
@@ -223,9 +224,13 @@ bool places_scaled(const Conversion& c) noexcept
     {
       to_scaled(c, image, point);
     }
+    else if (c.box.tilted)
+    {
+      to_cartesian<true>(c, image, point);
+    }
     else
     {
-      to_cartesian(c, image, point);
+      to_cartesian<false>(c, image, point);
     }
     image += step;
   }

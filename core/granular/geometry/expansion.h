@@ -2,7 +2,7 @@
 #ifndef granular_geometry_expansion_h
 #define granular_geometry_expansion_h
 
-#include "granular/geometry/compensated.h"
+#include "granular/geometry/box.h"
 
 #include <array>
 #include <cmath>
@@ -117,5 +117,50 @@ private:
   std::array<double, most> parts_;
   std::size_t size_ = 0;
 };
+
+/// A vector whose components are exact sums of a few doubles.
+using ExactVector = std::array<Expansion<8>, 3>;
+
+inline ExactVector exact_vector(const Twofold3& vector) noexcept
+{
+  ExactVector exact;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    exact[k].add(vector[k]);
+  }
+  return exact;
+}
+
+/// Room for six permutations, products of three components, and four terms of each component.
+using ExactDeterminant = Expansion<6 * 8 * 2 * 2 * 4>;
+
+/// Returns the exact determinant of three vectors, as long as no product of three components underflows. Components of
+/// b and c are sums of at most two doubles.
+inline ExactDeterminant determinant(
+  const ExactVector& a, const ExactVector& b, const ExactVector& c) noexcept
+{
+  constexpr std::size_t orders[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 0, 2, 1 },
+    { 2, 1, 0 }, { 1, 0, 2 } };
+  ExactDeterminant sum;
+  for (std::size_t order = 0; order < 6; ++order)
+  {
+    const auto& [i, j, k] = orders[order];
+    const double sign = order < 3 ? 1 : -1;
+    for (const double x : a[i].parts())
+    {
+      for (const double y : b[j].parts())
+      {
+        const double product = sign * x * y;
+        const double rest = std::fma(sign * x, y, -product);
+        for (const double z : c[k].parts())
+        {
+          sum.add_product(rest, z);
+          sum.add_product(product, z);
+        }
+      }
+    }
+  }
+  return sum;
+}
 }
 #endif

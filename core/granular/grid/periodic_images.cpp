@@ -66,7 +66,10 @@ Twofold PeriodicImages::moved(
   sum.add(x);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    sum.add_product(static_cast<double>(k[i]), vectors_[i][axis]);
+    if (k[i] != 0 && vectors_[i][axis].hi != 0) // most are 0
+    {
+      sum.add_product(static_cast<double>(k[i]), vectors_[i][axis]);
+    }
   }
   return sum.twofold();
 }

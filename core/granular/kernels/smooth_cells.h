@@ -23,6 +23,23 @@ enum class KernelBounds : std::uint8_t
   Inside ///< inside the grid, along axes that are not periodic: all is inside
 };
 
+/// The division of a particle among cells.
+enum class CellWeights : std::uint8_t
+{
+  Centre,  ///< the whole particle in the cell of its centre, as in LIGGGHTS
+  Overlap, ///< each cell has the volume of the particle inside it
+  Kernel   ///< each cell has what a smoothing kernel around its centre gives: see SmoothCells
+};
+
+/// Ways to divide particles and contacts.
+struct WeightOptions
+{
+  CellWeights weights = CellWeights::Overlap;
+  KernelShape kernel = KernelShape::Gaussian;
+  double width = 0; ///< of the kernel, above 0
+  KernelBounds bounds = KernelBounds::None;
+};
+
 /// Divides points and lines among the cells of a grid by a kernel around the centre of each cell. The parts are normalised:
 /// the cells of the grid, continued over all space, have one whole together. Along an axis with a single cell there is no
 /// smoothing: the cell has all that is between its faces.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/particles/point_forms.h"
 
-#include "granular/geometry/exact_determinant.h"
+#include "granular/geometry/expansion.h"
 
 #include <cmath>
 

@@ -15,33 +15,6 @@ namespace
 constexpr std::size_t rest_of_mark = item_mark.size() - 1;
 }
 
-/// Reports now and then how far a scan is.
-class TextScanner::ScanProgress
-{
-public:
-  ScanProgress(Progress& progress, const ByteSource& source, std::int64_t offset) noexcept
-    : progress_(progress)
-    , source_(source)
-    , reported_(offset)
-  {
-  }
-
-  void reach(std::int64_t offset)
-  {
-    constexpr std::int64_t interval = std::int64_t{ 1 } << 25;
-    if (offset - reported_ >= interval)
-    {
-      reported_ = offset;
-      progress_.step(source_.fraction(offset));
-    }
-  }
-
-private:
-  Progress& progress_;
-  const ByteSource& source_;
-  std::int64_t reported_;
-};
-
 /// Findings in a part of the text. Its first line may have begun before it.
 struct TextScanner::Chunk
 {
@@ -125,9 +98,8 @@ void TextScanner::put_back() noexcept
 std::int64_t TextScanner::skip_to_item(Progress& progress)
 {
   const std::int64_t start = this->offset();
-  ScanProgress reports(progress, source_, start);
   Passed passed;
-  passed.line_start = start;
+  passed.line_start = passed.reported = start;
   bool at_end = false;
   bool done = false;
   while (!done)
@@ -135,17 +107,28 @@ std::int64_t TextScanner::skip_to_item(Progress& progress)
     const bool much = this->offset() - start >= ahead_.after && !at_end;
     if (much && ahead_.threads > 1 && source_.concurrent())
     {
-      done = this->skip_chunks(passed, reports);
+      done = this->skip_chunks(passed, progress);
       continue;
     }
     done = this->skip_window(passed, at_end);
     if (!done)
     {
       at_end = !this->fill();
-      reports.reach(this->offset());
+      this->report(this->offset(), passed, progress);
     }
   }
   return passed.rows;
+}
+
+/// Reports now and then how far the scan is.
+void TextScanner::report(std::int64_t offset, Passed& passed, Progress& progress) const
+{
+  constexpr std::int64_t interval = std::int64_t{ 1 } << 25;
+  if (offset - passed.reported >= interval)
+  {
+    passed.reported = offset;
+    progress.step(source_.fraction(offset));
+  }
 }
 
 /// Passes over what is in the window. True if that ended at an item or, at_end, at the end of the text.
@@ -175,12 +158,12 @@ bool TextScanner::skip_window(Passed& passed, bool at_end)
 }
 
 /// Passes over chunks that several threads look at. True if that ended at an item, or at the end.
-bool TextScanner::skip_chunks(Passed& passed, ScanProgress& reports)
+bool TextScanner::skip_chunks(Passed& passed, Progress& progress)
 {
   constexpr std::int64_t chunks_a_thread = 128; // each round costs new threads
   const auto bytes = static_cast<std::int64_t>(ahead_.chunk);
   const std::int64_t from = this->offset();
-  reports.reach(from);
+  this->report(from, passed, progress);
   const std::int64_t left = std::max(std::int64_t{ 0 }, source_.stamp().size - from);
   const auto count =
     static_cast<std::size_t>(std::min(ahead_.threads * chunks_a_thread, left / bytes + 1));
@@ -200,7 +183,7 @@ bool TextScanner::skip_chunks(Passed& passed, ScanProgress& reports)
     const std::int64_t offset = from + static_cast<std::int64_t>(chunk) * bytes;
     if (worker == 0)
     {
-      reports.reach(offset);
+      this->report(offset, passed, progress);
     }
     chunks[chunk] =
       this->scan_chunk(offset, chunk == 0 ? &passed.state : nullptr, buffers_[worker]);

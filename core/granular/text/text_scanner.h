@@ -71,14 +71,15 @@ private:
   {
     std::int64_t rows = 0;
     std::int64_t line_start = 0; ///< of the line at hand
+    std::int64_t reported = 0;   ///< offset
     LineState state = {};
   };
   struct Chunk;
-  class ScanProgress;
 
   bool fill();
   bool skip_window(Passed& passed, bool at_end);
-  bool skip_chunks(Passed& passed, ScanProgress& reports);
+  bool skip_chunks(Passed& passed, Progress& progress);
+  void report(std::int64_t offset, Passed& passed, Progress& progress) const;
   Chunk scan_chunk(std::int64_t from, const LineState* state, PaddedBuffer& buffer) const;
   bool join(const Chunk& chunk, Passed& passed);
 

@@ -167,12 +167,121 @@ public:
   {
   }
 
-  void run();
+  void run()
+  {
+    try
+    {
+      // a text there was before does not count
+      const int known = index_.frames.empty() ? FrameKind::text : index_.frames.back().kind->layout;
+      layout_ = known == FrameKind::text ? find_layout(source_, progress_) : known;
+      for (int frame = 0; this->next_frame(); ++frame)
+      {
+        constexpr int report = 256;
+        if (frame % report == 0)
+        {
+          progress_.step(source_.fraction(index_.resume_offset));
+        }
+      }
+    }
+    catch (const FormatError& error)
+    {
+      if (source_.compressed())
+      {
+        throw; // it may be the compressed data that are damaged: then nothing of them can be trusted
+      }
+      set_defect(index_, { error.where(), error.text() });
+      if (!index_.frames.empty())
+      {
+        index_.notices.push_back(
+          { error.where(), error.text() + "; the frame and all that follow are left out" });
+      }
+    }
+  }
 
 private:
-  bool next_frame();
-  std::shared_ptr<const FrameKind> kind(const BinaryHeader& header);
-  ColumnSchema schema(const std::vector<std::string>& names, const BinaryHeader& header);
+  /// False at the end of the file, and where a frame is not complete.
+  bool next_frame()
+  {
+    const BinaryLayout& layout = binary_layouts()[static_cast<std::size_t>(layout_)];
+    const auto header = read_binary_header(source_, index_.resume_offset, layout);
+    const auto end = header ? find_end(source_, *header, layout.swapped, progress_) : std::nullopt;
+    if (!end)
+    {
+      char byte = 0;
+      if (source_.read(index_.resume_offset, &byte, 1) > 0)
+      {
+        set_defect(index_,
+          { { source_.path(), 0, index_.resume_offset },
+            "expected a complete frame, got the end of the file in it" });
+      }
+      return false;
+    }
+    if (!header->frame.units.empty())
+    {
+      index_.units = header->frame.units;
+    }
+    FrameEntry entry;
+    entry.timestep = header->frame.timestep;
+    entry.rows = header->frame.rows;
+    entry.offset = index_.resume_offset;
+    entry.end = *end;
+    entry.time = header->frame.time.value_or(FrameEntry::no_time);
+    entry.kind = this->kind(*header);
+    entry.shape = hash_shape(header->frame, *entry.kind);
+    index_.frames.push_back(std::move(entry));
+    index_.resume_offset = *end;
+    return true;
+  }
+
+  std::shared_ptr<const FrameKind> kind(const BinaryHeader& header)
+  {
+    const bool unnamed = header.columns.empty();
+    const AtomFit fit = unnamed && index_.column_names.empty()
+      ? fit_atom(source_, header, binary_layouts()[static_cast<std::size_t>(layout_)])
+      : AtomFit{};
+    const bool same = kind_ && kind_->units == index_.units && columns_ == header.columns &&
+      fit_ == fit && kind_->schema.columns().size() == static_cast<std::size_t>(header.size_one);
+    if (!same)
+    {
+      index_.unnamed = index_.unnamed || unnamed;
+      const UnnamedColumns columns = unnamed
+        ? name_columns(static_cast<std::size_t>(header.size_one), index_.column_names, fit)
+        : UnnamedColumns{ header.columns };
+      ColumnSchema schema = this->schema(columns.names, header);
+      kind_ = index_.kinds->share(
+        { std::move(schema), index_.units, layout_, columns.named, columns.guessed });
+      columns_ = header.columns;
+      fit_ = fit;
+    }
+    return kind_;
+  }
+
+  ColumnSchema schema(const std::vector<std::string>& names, const BinaryHeader& header)
+  {
+    if (names.size() != static_cast<std::size_t>(header.size_one))
+    {
+      const bool of_user = header.columns.empty();
+      throw FormatError("expected " + std::to_string(header.size_one) +
+          (of_user ? " names in ColumnNames, got " : " column names, got ") +
+          std::to_string(names.size()) +
+          (of_user ? describe_first_row(source_, index_.resume_offset,
+                       binary_layouts()[static_cast<std::size_t>(layout_)])
+                   : ""),
+        { source_.path(), 0, header.size_one_offset });
+    }
+    ColumnSchema schema(names);
+    std::vector<ColumnSchema::TypeChange> integers;
+    for (std::size_t column = 0; column < names.size(); ++column)
+    {
+      if (schema.columns()[column].type == ValueType::Text)
+      {
+        // an element is written as its type
+        integers.push_back({ static_cast<int>(column), ValueType::Int32 });
+      }
+    }
+    schema.set_types(integers);
+    return schema;
+  }
 
   const ByteSource& source_;
   FileIndex& index_;
@@ -182,121 +291,6 @@ private:
   std::vector<std::string> columns_;      ///< as its header names them
   AtomFit fit_;                           ///< if it does not, nor does the user
 };
-
-void Indexer::run()
-{
-  try
-  {
-    // a text there was before does not count
-    const int known = index_.frames.empty() ? FrameKind::text : index_.frames.back().kind->layout;
-    layout_ = known == FrameKind::text ? find_layout(source_, progress_) : known;
-    for (int frame = 0; this->next_frame(); ++frame)
-    {
-      constexpr int report = 256;
-      if (frame % report == 0)
-      {
-        progress_.step(source_.fraction(index_.resume_offset));
-      }
-    }
-  }
-  catch (const FormatError& error)
-  {
-    if (source_.compressed())
-    {
-      throw; // it may be the compressed data that are damaged: then nothing of them can be trusted
-    }
-    set_defect(index_, { error.where(), error.text() });
-    if (!index_.frames.empty())
-    {
-      index_.notices.push_back(
-        { error.where(), error.text() + "; the frame and all that follow are left out" });
-    }
-  }
-}
-
-/// False at the end of the file, and where a frame is not complete.
-bool Indexer::next_frame()
-{
-  const BinaryLayout& layout = binary_layouts()[static_cast<std::size_t>(layout_)];
-  const auto header = read_binary_header(source_, index_.resume_offset, layout);
-  const auto end = header ? find_end(source_, *header, layout.swapped, progress_) : std::nullopt;
-  if (!end)
-  {
-    char byte = 0;
-    if (source_.read(index_.resume_offset, &byte, 1) > 0)
-    {
-      set_defect(index_,
-        { { source_.path(), 0, index_.resume_offset },
-          "expected a complete frame, got the end of the file in it" });
-    }
-    return false;
-  }
-  if (!header->frame.units.empty())
-  {
-    index_.units = header->frame.units;
-  }
-  FrameEntry entry;
-  entry.timestep = header->frame.timestep;
-  entry.rows = header->frame.rows;
-  entry.offset = index_.resume_offset;
-  entry.end = *end;
-  entry.time = header->frame.time.value_or(FrameEntry::no_time);
-  entry.kind = this->kind(*header);
-  entry.shape = hash_shape(header->frame, *entry.kind);
-  index_.frames.push_back(std::move(entry));
-  index_.resume_offset = *end;
-  return true;
-}
-
-std::shared_ptr<const FrameKind> Indexer::kind(const BinaryHeader& header)
-{
-  const bool unnamed = header.columns.empty();
-  const AtomFit fit = unnamed && index_.column_names.empty()
-    ? fit_atom(source_, header, binary_layouts()[static_cast<std::size_t>(layout_)])
-    : AtomFit{};
-  const bool same = kind_ && kind_->units == index_.units && columns_ == header.columns &&
-    fit_ == fit && kind_->schema.columns().size() == static_cast<std::size_t>(header.size_one);
-  if (!same)
-  {
-    index_.unnamed = index_.unnamed || unnamed;
-    const UnnamedColumns columns = unnamed
-      ? name_columns(static_cast<std::size_t>(header.size_one), index_.column_names, fit)
-      : UnnamedColumns{ header.columns };
-    ColumnSchema schema = this->schema(columns.names, header);
-    kind_ = index_.kinds->share(
-      { std::move(schema), index_.units, layout_, columns.named, columns.guessed });
-    columns_ = header.columns;
-    fit_ = fit;
-  }
-  return kind_;
-}
-
-ColumnSchema Indexer::schema(const std::vector<std::string>& names, const BinaryHeader& header)
-{
-  if (names.size() != static_cast<std::size_t>(header.size_one))
-  {
-    const bool of_user = header.columns.empty();
-    throw FormatError("expected " + std::to_string(header.size_one) +
-        (of_user ? " names in ColumnNames, got " : " column names, got ") +
-        std::to_string(names.size()) +
-        (of_user ? describe_first_row(source_, index_.resume_offset,
-                     binary_layouts()[static_cast<std::size_t>(layout_)])
-                 : ""),
-      { source_.path(), 0, header.size_one_offset });
-  }
-  ColumnSchema schema(names);
-  std::vector<ColumnSchema::TypeChange> integers;
-  for (std::size_t column = 0; column < names.size(); ++column)
-  {
-    if (schema.columns()[column].type == ValueType::Text)
-    {
-      // an element is written as its type
-      integers.push_back({ static_cast<int>(column), ValueType::Int32 });
-    }
-  }
-  schema.set_types(integers);
-  return schema;
-}
 }
 
 bool holds_binary(std::string_view first_bytes) noexcept

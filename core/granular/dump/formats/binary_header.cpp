@@ -110,14 +110,153 @@ private:
   {
     return layout_.wide ? this->take<std::int64_t>() : this->take<std::int32_t>();
   }
-  Vector3 take_vector();
-  std::string take_text(const char* what);
-  void require(bool good, const std::string& expected, std::int64_t got);
-  void blame(const FormatError& fault);
-  bool read_magic();
-  void read_counts();
-  void read_box();
-  void read_columns();
+
+  Vector3 take_vector()
+  {
+    const double x = this->take<double>();
+    const double y = this->take<double>();
+    return { x, y, this->take<double>() };
+  }
+
+  std::string take_text(const char* what)
+  {
+    const auto length = this->take<std::int32_t>();
+    const bool good = length >= 0 && length <= longest_text;
+    this->require(good, std::string("the length of ") + what, length);
+    return good ? cursor_.take_text(length) : std::string();
+  }
+
+  void require(bool good, const std::string& expected, std::int64_t got)
+  {
+    if (!good)
+    {
+      this->blame(FormatError(
+        "expected " + expected + ", got " + std::to_string(got), { source_.path(), 0, field_ }));
+    }
+  }
+
+  /// A field that is not there is not at fault.
+  void blame(const FormatError& fault)
+  {
+    if (!cursor_.ended())
+    {
+      ++faults;
+      error = error ? error : fault;
+    }
+  }
+
+  /// False if there is none where one should be: nothing behind it means anything then.
+  bool read_magic()
+  {
+    if (!layout_.magic)
+    {
+      return true;
+    }
+    const std::int64_t length = this->take_count();
+    const std::int64_t word = cursor_.offset();
+    const std::string text = cursor_.take_text(longest_magic_word);
+    const auto magic = std::ranges::find_if(
+      magic_words, [&](std::string_view known) { return text.starts_with(known); });
+    const bool good = length < 0 && length >= -longest_magic;
+    this->require(good, "the length of a magic word, -8 or -10", length);
+    if (magic == std::end(magic_words) && !cursor_.ended())
+    {
+      std::string other(good ? static_cast<std::size_t>(-length) : 0, '\0');
+      other.resize(source_.read(word, other.data(), other.size()));
+      this->blame(FormatError(
+        "expected DUMPATOM or DUMPCUSTOM, got " + quoted(other), { source_.path(), 0, word }));
+      const bool is_word =
+        !other.empty() && std::ranges::all_of(other, [](char c) { return c >= '0' && c <= 'Z'; });
+      faults = is_word ? 1 : all_faults;
+    }
+    if (magic == std::end(magic_words))
+    {
+      return false;
+    }
+    this->require(length == -static_cast<std::int64_t>(magic->size()),
+      "the length of " + std::string(*magic), length);
+    cursor_.go_to(word + static_cast<std::int64_t>(magic->size()));
+    const auto endian = this->take<std::int32_t>();
+    this->require(endian == 1, "the mark of the byte order, 1", endian);
+    revision_ = this->take<std::int32_t>();
+    this->require(revision_ == 1 || revision_ == 2, "revision 1 or 2", revision_);
+    return true;
+  }
+
+  void read_counts()
+  {
+    FrameHeader& frame = header.frame;
+    frame.timestep = this->take_count();
+    this->require(layout_.magic || frame.timestep >= 0, "a timestep >= 0", frame.timestep);
+    frame.rows = this->take_count();
+    constexpr std::int64_t most_rows = std::numeric_limits<std::int64_t>::max() /
+      (std::int64_t{ most_columns } * std::int64_t{ sizeof(double) });
+    this->require(frame.rows >= 0 && frame.rows <= most_rows, "a number of atoms", frame.rows);
+  }
+
+  void read_box()
+  {
+    triclinic_ = layout_.triclinic ? this->take<std::int32_t>() : 0;
+    const int largest = layout_.magic ? 2 : 1;
+    this->require(triclinic_ >= 0 && triclinic_ <= largest,
+      largest == 2 ? "triclinic 0, 1 or 2" : "triclinic 0 or 1", triclinic_);
+    triclinic_ = triclinic_ >= 0 && triclinic_ <= largest ? triclinic_ : 0;
+    std::string boundary;
+    for (int face = 0; layout_.boundary && face < 6; ++face)
+    {
+      const auto flag = this->take<std::int32_t>();
+      this->require(flag >= 0 && flag <= 3, "a boundary flag from 0 to 3", flag);
+      boundary += face > 0 && face % 2 == 0 ? " " : "";
+      boundary += "pfsm"[flag & 3];
+    }
+    Box& box = header.frame.box;
+    header.box_offset = cursor_.offset();
+    if (triclinic_ == 2)
+    {
+      const Vector3 a = this->take_vector();
+      const Vector3 b = this->take_vector();
+      const Vector3 c = this->take_vector();
+      box = Box::from_vectors(this->take_vector(), { a, b, c });
+    }
+    else
+    {
+      Vector3 lo = {};
+      Vector3 hi = {};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        lo[axis] = this->take<double>();
+        hi[axis] = this->take<double>();
+      }
+      const Vector3 tilts = triclinic_ == 1 ? this->take_vector() : Vector3{};
+      box = triclinic_ == 1 ? Box::from_tilted_bounds(lo, hi, tilts[0], tilts[1], tilts[2])
+                            : Box::from_bounds(lo, hi);
+    }
+    box.boundary = boundary;
+  }
+
+  void read_columns()
+  {
+    header.size_one = this->take<std::int32_t>();
+    header.size_one_offset = field_;
+    this->require(header.size_one >= 1 && header.size_one <= most_columns,
+      "1 to " + std::to_string(most_columns) + " columns", header.size_one);
+    if (revision_ > 1)
+    {
+      header.frame.units = this->take_text("the units");
+      if (this->take<char>() != 0)
+      {
+        header.frame.time = this->take<double>();
+      }
+      const std::string columns = this->take_text("the names of the columns");
+      for (const std::string_view name : split_words(columns))
+      {
+        header.columns.emplace_back(name);
+      }
+    }
+    header.chunks = this->take<std::int32_t>();
+    this->require(header.chunks >= 1 && header.chunks <= most_chunks,
+      "1 to " + std::to_string(most_chunks) + " chunks", header.chunks);
+  }
 
   const ByteSource& source_;
   const BinaryLayout& layout_;
@@ -127,152 +266,6 @@ private:
   std::int32_t triclinic_ = 0;
 };
 
-/// A field that is not there is not at fault.
-void HeaderReader::blame(const FormatError& fault)
-{
-  if (!cursor_.ended())
-  {
-    ++faults;
-    error = error ? error : fault;
-  }
-}
-
-void HeaderReader::require(bool good, const std::string& expected, std::int64_t got)
-{
-  if (!good)
-  {
-    this->blame(FormatError(
-      "expected " + expected + ", got " + std::to_string(got), { source_.path(), 0, field_ }));
-  }
-}
-
-Vector3 HeaderReader::take_vector()
-{
-  const double x = this->take<double>();
-  const double y = this->take<double>();
-  return { x, y, this->take<double>() };
-}
-
-std::string HeaderReader::take_text(const char* what)
-{
-  const auto length = this->take<std::int32_t>();
-  const bool good = length >= 0 && length <= longest_text;
-  this->require(good, std::string("the length of ") + what, length);
-  return good ? cursor_.take_text(length) : std::string();
-}
-
-/// False if there is none where one should be: nothing behind it means anything then.
-bool HeaderReader::read_magic()
-{
-  if (!layout_.magic)
-  {
-    return true;
-  }
-  const std::int64_t length = this->take_count();
-  const std::int64_t word = cursor_.offset();
-  const std::string text = cursor_.take_text(longest_magic_word);
-  const auto magic = std::ranges::find_if(
-    magic_words, [&](std::string_view known) { return text.starts_with(known); });
-  const bool good = length < 0 && length >= -longest_magic;
-  this->require(good, "the length of a magic word, -8 or -10", length);
-  if (magic == std::end(magic_words) && !cursor_.ended())
-  {
-    std::string other(good ? static_cast<std::size_t>(-length) : 0, '\0');
-    other.resize(source_.read(word, other.data(), other.size()));
-    this->blame(FormatError(
-      "expected DUMPATOM or DUMPCUSTOM, got " + quoted(other), { source_.path(), 0, word }));
-    const bool is_word =
-      !other.empty() && std::ranges::all_of(other, [](char c) { return c >= '0' && c <= 'Z'; });
-    faults = is_word ? 1 : all_faults;
-  }
-  if (magic == std::end(magic_words))
-  {
-    return false;
-  }
-  this->require(length == -static_cast<std::int64_t>(magic->size()),
-    "the length of " + std::string(*magic), length);
-  cursor_.go_to(word + static_cast<std::int64_t>(magic->size()));
-  const auto endian = this->take<std::int32_t>();
-  this->require(endian == 1, "the mark of the byte order, 1", endian);
-  revision_ = this->take<std::int32_t>();
-  this->require(revision_ == 1 || revision_ == 2, "revision 1 or 2", revision_);
-  return true;
-}
-
-void HeaderReader::read_counts()
-{
-  FrameHeader& frame = header.frame;
-  frame.timestep = this->take_count();
-  this->require(layout_.magic || frame.timestep >= 0, "a timestep >= 0", frame.timestep);
-  frame.rows = this->take_count();
-  constexpr std::int64_t most_rows = std::numeric_limits<std::int64_t>::max() /
-    (std::int64_t{ most_columns } * std::int64_t{ sizeof(double) });
-  this->require(frame.rows >= 0 && frame.rows <= most_rows, "a number of atoms", frame.rows);
-}
-
-void HeaderReader::read_box()
-{
-  triclinic_ = layout_.triclinic ? this->take<std::int32_t>() : 0;
-  const int largest = layout_.magic ? 2 : 1;
-  this->require(triclinic_ >= 0 && triclinic_ <= largest,
-    largest == 2 ? "triclinic 0, 1 or 2" : "triclinic 0 or 1", triclinic_);
-  triclinic_ = triclinic_ >= 0 && triclinic_ <= largest ? triclinic_ : 0;
-  std::string boundary;
-  for (int face = 0; layout_.boundary && face < 6; ++face)
-  {
-    const auto flag = this->take<std::int32_t>();
-    this->require(flag >= 0 && flag <= 3, "a boundary flag from 0 to 3", flag);
-    boundary += face > 0 && face % 2 == 0 ? " " : "";
-    boundary += "pfsm"[flag & 3];
-  }
-  Box& box = header.frame.box;
-  header.box_offset = cursor_.offset();
-  if (triclinic_ == 2)
-  {
-    const Vector3 a = this->take_vector();
-    const Vector3 b = this->take_vector();
-    const Vector3 c = this->take_vector();
-    box = Box::from_vectors(this->take_vector(), { a, b, c });
-  }
-  else
-  {
-    Vector3 lo = {};
-    Vector3 hi = {};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      lo[axis] = this->take<double>();
-      hi[axis] = this->take<double>();
-    }
-    const Vector3 tilts = triclinic_ == 1 ? this->take_vector() : Vector3{};
-    box = triclinic_ == 1 ? Box::from_tilted_bounds(lo, hi, tilts[0], tilts[1], tilts[2])
-                          : Box::from_bounds(lo, hi);
-  }
-  box.boundary = boundary;
-}
-
-void HeaderReader::read_columns()
-{
-  header.size_one = this->take<std::int32_t>();
-  header.size_one_offset = field_;
-  this->require(header.size_one >= 1 && header.size_one <= most_columns,
-    "1 to " + std::to_string(most_columns) + " columns", header.size_one);
-  if (revision_ > 1)
-  {
-    header.frame.units = this->take_text("the units");
-    if (this->take<char>() != 0)
-    {
-      header.frame.time = this->take<double>();
-    }
-    const std::string columns = this->take_text("the names of the columns");
-    for (const std::string_view name : split_words(columns))
-    {
-      header.columns.emplace_back(name);
-    }
-  }
-  header.chunks = this->take<std::int32_t>();
-  this->require(header.chunks >= 1 && header.chunks <= most_chunks,
-    "1 to " + std::to_string(most_chunks) + " chunks", header.chunks);
-}
 }
 
 std::span<const BinaryLayout> binary_layouts() noexcept

@@ -94,15 +94,191 @@ public:
   }
 
 private:
-  bool next_frame();
-  bool read_frame();
-  bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end);
-  const std::shared_ptr<const FrameKind>& kind();
-  void leave_out(const Where& where, const std::string& why);
-  bool go_to_next_frame();
-  bool peek(std::string_view& line);
-  bool unfinished_line() const;
-  bool find_glued_header(FrameEntry& entry, std::int64_t& rows);
+  /// False at the end of the text.
+  bool next_frame()
+  {
+    reader_.restart(index_.units);
+    try
+    {
+      return this->read_frame();
+    }
+    catch (const FormatError& error)
+    {
+      this->leave_out(error.where(), error.text());
+    }
+    catch (const LimitError& error)
+    {
+      this->leave_out(error.where(), error.text());
+    }
+    return this->go_to_next_frame();
+  }
+
+  bool read_frame()
+  {
+    if (!reader_.read())
+    {
+      if (reader_.opened())
+      {
+        set_defect(index_,
+          { { source_.path(), reader_.line() },
+            "expected a complete frame, got the end of the file in its header" });
+      }
+      return false;
+    }
+    const FrameHeader& header = reader_.header();
+    rows_offset_ = scanner_.offset();
+    index_.units = header.units;
+    FrameEntry entry;
+    entry.timestep = header.timestep;
+    entry.rows = header.rows;
+    entry.offset = reader_.offset();
+    entry.line = reader_.line();
+    entry.time = header.time.value_or(FrameEntry::no_time);
+    entry.kind = this->kind();
+    entry.shape = hash_shape(header, *entry.kind);
+    std::int64_t rows = scanner_.skip_to_item(progress_);
+    entry.end = scanner_.offset();
+    std::string_view next;
+    const bool at_end = !this->peek(next);
+    if (this->find_glued_header(entry, rows) && rows != entry.rows)
+    {
+      this->leave_out({ source_.path(), entry.line },
+        "expected " + std::to_string(entry.rows) +
+          " rows, got the header of another frame within a row");
+      return true;
+    }
+    return this->finish_frame(entry, rows, at_end);
+  }
+
+  /// Keeps the frame if it has the rows that its header promises.
+  bool finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
+  {
+    if (rows == entry.rows)
+    {
+      index_.resume_offset = scanner_.offset();
+      index_.resume_line = scanner_.line();
+      index_.frames.push_back(std::move(entry));
+      return true;
+    }
+    const Where where{ source_.path(), entry.line };
+    std::string why =
+      "expected " + std::to_string(entry.rows) + " rows, got " + std::to_string(rows);
+    if (at_end && rows < entry.rows)
+    {
+      why += this->unfinished_line() ? ", and a last line without its line feed" : "";
+      set_defect(index_, { where, why });
+      return false;
+    }
+    this->leave_out(where, why);
+    return true;
+  }
+
+  const std::shared_ptr<const FrameKind>& kind()
+  {
+    const std::int64_t line_of_names = scanner_.last_line();
+    std::string_view line;
+    first_row_.clear();
+    bool found = reader_.header().rows > 0;
+    while (found && first_row_.empty())
+    {
+      found = scanner_.next(line);
+      append_words(found ? line : std::string_view(), first_row_);
+    }
+    const std::vector<std::string>& names = reader_.column_names();
+    const std::string& units = reader_.header().units;
+    if (!kind_)
+    {
+      kind_ = index_.kinds->last(); // another file is mostly of the same
+    }
+    if (!kind_ || kind_->layout != FrameKind::text || kind_->units != units ||
+      !makes_schema(names, first_row_, kind_->schema))
+    {
+      kind_ = index_.kinds->share(
+        { make_schema(names, first_row_, { source_.path(), line_of_names }), units });
+    }
+    if (found)
+    {
+      scanner_.put_back();
+    }
+    return kind_;
+  }
+
+  void leave_out(const Where& where, const std::string& why)
+  {
+    set_defect(index_, { where, why });
+    index_.notices.push_back({ where, why + "; the frame is left out" });
+  }
+
+  bool go_to_next_frame()
+  {
+    std::string_view line;
+    for (;;)
+    {
+      scanner_.skip_to_item(progress_);
+      if (!this->peek(line))
+      {
+        return false;
+      }
+      if (opens_frame(item_words(line)))
+      {
+        return true;
+      }
+      scanner_.next(line);
+    }
+  }
+
+  /// The line that comes next, and stays. False at the end of the text, and where what comes is not
+  /// even a line: a file system that lost power leaves zeros.
+  bool peek(std::string_view& line)
+  {
+    try
+    {
+      if (!scanner_.next(line))
+      {
+        return false;
+      }
+    }
+    catch (const LimitError&)
+    {
+      return false;
+    }
+    scanner_.put_back();
+    return true;
+  }
+
+  /// Returns true if something follows the last line feed.
+  bool unfinished_line() const
+  {
+    char byte = 0;
+    return source_.read(scanner_.offset(), &byte, 1) > 0;
+  }
+
+  /// A run that was killed within a row and then went on appending leaves "0.16ITEM: TIMESTEP".
+  /// Looks for that in the few lines before the scanner, goes there, and ends the frame before it:
+  /// rows becomes the number of its rows.
+  bool find_glued_header(FrameEntry& entry, std::int64_t& rows)
+  {
+    constexpr std::int64_t reach = 512; // two sections of a header, and more
+    const std::int64_t to = scanner_.offset();
+    const std::int64_t start = std::max(rows_offset_, to - reach);
+    std::string buffer;
+    const std::string_view tail = scanner_.before(static_cast<std::size_t>(to - start), buffer);
+    for (const std::string_view opening : { "ITEM: UNITS", "ITEM: TIME", "ITEM: TIMESTEP" })
+    {
+      const std::size_t found = tail.find(opening);
+      if (found != tail.npos)
+      {
+        const auto lines =
+          std::count(tail.begin() + static_cast<std::ptrdiff_t>(found), tail.end(), '\n');
+        const std::size_t feed = tail.rfind('\n', found);
+        entry.end = start + static_cast<std::int64_t>(feed == tail.npos ? 0 : feed + 1);
+        rows -= lines;
+        scanner_.go_to(start + static_cast<std::int64_t>(found), scanner_.line() - lines);
+        return true;
+      }
+    }
+    return false;
+  }
 
   static constexpr std::size_t window = std::size_t{ 1 } << 18;
 
@@ -116,190 +292,6 @@ private:
   std::int64_t rows_offset_ = 0;            ///< of the frame at hand
 };
 
-/// False at the end of the text.
-bool Indexer::next_frame()
-{
-  reader_.restart(index_.units);
-  try
-  {
-    return this->read_frame();
-  }
-  catch (const FormatError& error)
-  {
-    this->leave_out(error.where(), error.text());
-  }
-  catch (const LimitError& error)
-  {
-    this->leave_out(error.where(), error.text());
-  }
-  return this->go_to_next_frame();
-}
-
-bool Indexer::read_frame()
-{
-  if (!reader_.read())
-  {
-    if (reader_.opened())
-    {
-      set_defect(index_,
-        { { source_.path(), reader_.line() },
-          "expected a complete frame, got the end of the file in its header" });
-    }
-    return false;
-  }
-  const FrameHeader& header = reader_.header();
-  rows_offset_ = scanner_.offset();
-  index_.units = header.units;
-  FrameEntry entry;
-  entry.timestep = header.timestep;
-  entry.rows = header.rows;
-  entry.offset = reader_.offset();
-  entry.line = reader_.line();
-  entry.time = header.time.value_or(FrameEntry::no_time);
-  entry.kind = this->kind();
-  entry.shape = hash_shape(header, *entry.kind);
-  std::int64_t rows = scanner_.skip_to_item(progress_);
-  entry.end = scanner_.offset();
-  std::string_view next;
-  const bool at_end = !this->peek(next);
-  if (this->find_glued_header(entry, rows) && rows != entry.rows)
-  {
-    this->leave_out({ source_.path(), entry.line },
-      "expected " + std::to_string(entry.rows) +
-        " rows, got the header of another frame within a row");
-    return true;
-  }
-  return this->finish_frame(entry, rows, at_end);
-}
-
-/// Keeps the frame if it has the rows that its header promises.
-bool Indexer::finish_frame(FrameEntry& entry, std::int64_t rows, bool at_end)
-{
-  if (rows == entry.rows)
-  {
-    index_.resume_offset = scanner_.offset();
-    index_.resume_line = scanner_.line();
-    index_.frames.push_back(std::move(entry));
-    return true;
-  }
-  const Where where{ source_.path(), entry.line };
-  std::string why = "expected " + std::to_string(entry.rows) + " rows, got " + std::to_string(rows);
-  if (at_end && rows < entry.rows)
-  {
-    why += this->unfinished_line() ? ", and a last line without its line feed" : "";
-    set_defect(index_, { where, why });
-    return false;
-  }
-  this->leave_out(where, why);
-  return true;
-}
-
-const std::shared_ptr<const FrameKind>& Indexer::kind()
-{
-  const std::int64_t line_of_names = scanner_.last_line();
-  std::string_view line;
-  first_row_.clear();
-  bool found = reader_.header().rows > 0;
-  while (found && first_row_.empty())
-  {
-    found = scanner_.next(line);
-    append_words(found ? line : std::string_view(), first_row_);
-  }
-  const std::vector<std::string>& names = reader_.column_names();
-  const std::string& units = reader_.header().units;
-  if (!kind_)
-  {
-    kind_ = index_.kinds->last(); // another file is mostly of the same
-  }
-  if (!kind_ || kind_->layout != FrameKind::text || kind_->units != units ||
-    !makes_schema(names, first_row_, kind_->schema))
-  {
-    kind_ = index_.kinds->share(
-      { make_schema(names, first_row_, { source_.path(), line_of_names }), units });
-  }
-  if (found)
-  {
-    scanner_.put_back();
-  }
-  return kind_;
-}
-
-/// Returns true if something follows the last line feed.
-bool Indexer::unfinished_line() const
-{
-  char byte = 0;
-  return source_.read(scanner_.offset(), &byte, 1) > 0;
-}
-
-void Indexer::leave_out(const Where& where, const std::string& why)
-{
-  set_defect(index_, { where, why });
-  index_.notices.push_back({ where, why + "; the frame is left out" });
-}
-
-bool Indexer::go_to_next_frame()
-{
-  std::string_view line;
-  for (;;)
-  {
-    scanner_.skip_to_item(progress_);
-    if (!this->peek(line))
-    {
-      return false;
-    }
-    if (opens_frame(item_words(line)))
-    {
-      return true;
-    }
-    scanner_.next(line);
-  }
-}
-
-/// The line that comes next, and stays. False at the end of the text, and where what comes is not
-/// even a line: a file system that lost power leaves zeros.
-bool Indexer::peek(std::string_view& line)
-{
-  try
-  {
-    if (!scanner_.next(line))
-    {
-      return false;
-    }
-  }
-  catch (const LimitError&)
-  {
-    return false;
-  }
-  scanner_.put_back();
-  return true;
-}
-
-/// A run that was killed within a row and then went on appending leaves "0.16ITEM: TIMESTEP".
-/// Looks for that in the few lines before the scanner, goes there, and ends the frame before it:
-/// rows becomes the number of its rows.
-bool Indexer::find_glued_header(FrameEntry& entry, std::int64_t& rows)
-{
-  constexpr std::int64_t reach = 512; // two sections of a header, and more
-  const std::int64_t to = scanner_.offset();
-  const std::int64_t start = std::max(rows_offset_, to - reach);
-  std::string buffer;
-  const std::string_view tail = scanner_.before(static_cast<std::size_t>(to - start), buffer);
-  for (const std::string_view opening : { "ITEM: UNITS", "ITEM: TIME", "ITEM: TIMESTEP" })
-  {
-    const std::size_t found = tail.find(opening);
-    if (found != tail.npos)
-    {
-      const auto lines =
-        std::count(tail.begin() + static_cast<std::ptrdiff_t>(found), tail.end(), '\n');
-      const std::size_t feed = tail.rfind('\n', found);
-      entry.end = start + static_cast<std::int64_t>(feed == tail.npos ? 0 : feed + 1);
-      rows -= lines;
-      scanner_.go_to(start + static_cast<std::int64_t>(found), scanner_.line() - lines);
-      return true;
-    }
-  }
-  return false;
-}
 }
 
 namespace

@@ -58,11 +58,164 @@ struct DumpWriter::File
     }
   }
 
-  void append_rows(std::string_view header, RowBatches& rows, Progress& progress);
-  void gather_rows(std::string_view header, RowBatches& rows, Progress& progress);
+  void append_rows(std::string_view header, RowBatches& rows, Progress& progress)
+  {
+    appender->append(header);
+    if (appender->is_plain())
+    {
+      rows.write_to(*appender, progress);
+      return;
+    }
+    while (rows.next(progress))
+    {
+      for (const std::string_view part : rows.bytes())
+      {
+        appender->append(part);
+      }
+    }
+  }
+
+  /// The first rank takes what the others send until each says that this is all. Also after an error: who sends
+  /// waits until somebody takes it.
+  void gather_rows(std::string_view header, RowBatches& rows, Progress& progress)
+  {
+    std::exception_ptr failure;
+    const auto attempt = [&](const auto& work)
+    {
+      try
+      {
+        if (!failure)
+        {
+          work();
+        }
+      }
+      catch (...)
+      {
+        failure = caught_exception();
+        ranks.call_off();
+      }
+    };
+    const auto take = [&](std::string& bytes, int source)
+    {
+      try
+      {
+        ranks.receive(bytes, source);
+        return !bytes.empty();
+      }
+      catch (const std::bad_alloc&)
+      {
+        attempt([] { throw; });
+        return true;
+      }
+    };
+    SharedProgress shared_progress(progress, ranks);
+    PartialProgress part(shared_progress);
+    const double share = 1.0 / ranks.size();
+    if (ranks.rank() == 0)
+    {
+      part.set_part(0, share);
+      attempt([&] { this->append_rows(header, rows, part); });
+      for (int source = 1; source < ranks.size(); ++source)
+      {
+        part.set_part(source * share, (source + 1) * share);
+        std::string bytes;
+        while (take(bytes, source))
+        {
+          attempt(
+            [&]
+            {
+              part.step(0);
+              appender->append(bytes);
+            });
+        }
+      }
+      attempt([&] { appender->end_part(); });
+    }
+    else
+    {
+      attempt(
+        [&]
+        {
+          while (rows.next(part))
+          {
+            for (const std::string_view bytes : rows.bytes())
+            {
+              if (!bytes.empty())
+              {
+                ranks.send(bytes, 0);
+              }
+            }
+          }
+        });
+      ranks.send({}, 0);
+    }
+    agree(ranks, failure);
+  }
+
+  /// Each rank writes its rows behind those of the ranks before it. Those of a text are counted first.
   void share_rows(std::string_view header, RowBatches& rows, const ChunkLengths& chunks,
-    std::span<const std::int64_t> kept_rows, Progress& progress);
-  std::size_t count_text(RowBatches& rows, std::string& kept, Progress& progress);
+    std::span<const std::int64_t> kept_rows, Progress& progress)
+  {
+    SharedProgress shared_progress(progress, ranks);
+    PartialProgress part(shared_progress);
+    const auto rank = static_cast<std::size_t>(ranks.rank());
+    std::int64_t before = 0;
+    std::int64_t all = 0;
+    std::string kept;
+    if (chunks.rows_per_chunk() > 0)
+    {
+      before = chunks.offset(sum_of(kept_rows.first(rank)));
+      all = chunks.offset(sum_of(kept_rows));
+    }
+    else
+    {
+      std::vector<std::int64_t> counts(kept_rows.size());
+      part.set_part(0, 0.5);
+      counts[rank] = static_cast<std::int64_t>(this->count_text(rows, kept, part));
+      ranks.sum(counts);
+      before = sum_of(std::span(counts).first(rank));
+      all = sum_of(counts);
+      part.set_part(0.5, 1);
+    }
+    if (rank == 0)
+    {
+      shared->write_at(shared_size, header);
+    }
+    const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
+    std::int64_t offset = begin + before;
+    const auto write = [&](std::string_view bytes)
+    {
+      shared->write_at(offset, bytes);
+      offset += static_cast<std::int64_t>(bytes.size());
+    };
+    write(kept);
+    while (rows.next(part))
+    {
+      std::ranges::for_each(rows.bytes(), write);
+    }
+    shared_size = begin + all;
+  }
+
+  /// Counts the bytes of all rows, keeps the first, and leaves rows where those begin that are not kept.
+  std::size_t count_text(RowBatches& rows, std::string& kept, Progress& progress)
+  {
+    kept.reserve(most_kept); // growing would take thrice as much; what is not used is not touched
+    std::size_t bytes = 0;
+    std::size_t chunks_kept = 0;
+    bool keeps = true;
+    while (rows.next(progress))
+    {
+      for (const std::string_view part : rows.bytes())
+      {
+        bytes += part.size();
+        keeps = keeps && kept.size() + part.size() <= most_kept;
+        kept += keeps ? part : std::string_view();
+        chunks_kept += keeps ? 1 : 0;
+      }
+    }
+    rows.go_to(chunks_kept);
+    return bytes;
+  }
 
   Executor executor;
   Communicator& ranks;
@@ -73,166 +226,6 @@ struct DumpWriter::File
   std::int64_t shared_size = 0;
   bool first = true; ///< no frame is written yet
 };
-
-void DumpWriter::File::append_rows(std::string_view header, RowBatches& rows, Progress& progress)
-{
-  appender->append(header);
-  if (appender->is_plain())
-  {
-    rows.write_to(*appender, progress);
-    return;
-  }
-  while (rows.next(progress))
-  {
-    for (const std::string_view part : rows.bytes())
-    {
-      appender->append(part);
-    }
-  }
-}
-
-/// The first rank takes what the others send until each says that this is all. Also after an error: who sends
-/// waits until somebody takes it.
-void DumpWriter::File::gather_rows(std::string_view header, RowBatches& rows, Progress& progress)
-{
-  std::exception_ptr failure;
-  const auto attempt = [&](const auto& work)
-  {
-    try
-    {
-      if (!failure)
-      {
-        work();
-      }
-    }
-    catch (...)
-    {
-      failure = caught_exception();
-      ranks.call_off();
-    }
-  };
-  const auto take = [&](std::string& bytes, int source)
-  {
-    try
-    {
-      ranks.receive(bytes, source);
-      return !bytes.empty();
-    }
-    catch (const std::bad_alloc&)
-    {
-      attempt([] { throw; });
-      return true;
-    }
-  };
-  SharedProgress shared_progress(progress, ranks);
-  PartialProgress part(shared_progress);
-  const double share = 1.0 / ranks.size();
-  if (ranks.rank() == 0)
-  {
-    part.set_part(0, share);
-    attempt([&] { this->append_rows(header, rows, part); });
-    for (int source = 1; source < ranks.size(); ++source)
-    {
-      part.set_part(source * share, (source + 1) * share);
-      std::string bytes;
-      while (take(bytes, source))
-      {
-        attempt(
-          [&]
-          {
-            part.step(0);
-            appender->append(bytes);
-          });
-      }
-    }
-    attempt([&] { appender->end_part(); });
-  }
-  else
-  {
-    attempt(
-      [&]
-      {
-        while (rows.next(part))
-        {
-          for (const std::string_view bytes : rows.bytes())
-          {
-            if (!bytes.empty())
-            {
-              ranks.send(bytes, 0);
-            }
-          }
-        }
-      });
-    ranks.send({}, 0);
-  }
-  agree(ranks, failure);
-}
-
-/// Counts the bytes of all rows, keeps the first, and leaves rows where those begin that are not kept.
-std::size_t DumpWriter::File::count_text(RowBatches& rows, std::string& kept, Progress& progress)
-{
-  kept.reserve(most_kept); // growing would take thrice as much; what is not used is not touched
-  std::size_t bytes = 0;
-  std::size_t chunks_kept = 0;
-  bool keeps = true;
-  while (rows.next(progress))
-  {
-    for (const std::string_view part : rows.bytes())
-    {
-      bytes += part.size();
-      keeps = keeps && kept.size() + part.size() <= most_kept;
-      kept += keeps ? part : std::string_view();
-      chunks_kept += keeps ? 1 : 0;
-    }
-  }
-  rows.go_to(chunks_kept);
-  return bytes;
-}
-
-/// Each rank writes its rows behind those of the ranks before it. Those of a text are counted first.
-void DumpWriter::File::share_rows(std::string_view header, RowBatches& rows,
-  const ChunkLengths& chunks, std::span<const std::int64_t> kept_rows, Progress& progress)
-{
-  SharedProgress shared_progress(progress, ranks);
-  PartialProgress part(shared_progress);
-  const auto rank = static_cast<std::size_t>(ranks.rank());
-  std::int64_t before = 0;
-  std::int64_t all = 0;
-  std::string kept;
-  if (chunks.rows_per_chunk() > 0)
-  {
-    before = chunks.offset(sum_of(kept_rows.first(rank)));
-    all = chunks.offset(sum_of(kept_rows));
-  }
-  else
-  {
-    std::vector<std::int64_t> counts(kept_rows.size());
-    part.set_part(0, 0.5);
-    counts[rank] = static_cast<std::int64_t>(this->count_text(rows, kept, part));
-    ranks.sum(counts);
-    before = sum_of(std::span(counts).first(rank));
-    all = sum_of(counts);
-    part.set_part(0.5, 1);
-  }
-  if (rank == 0)
-  {
-    shared->write_at(shared_size, header);
-  }
-  const std::int64_t begin = shared_size + static_cast<std::int64_t>(header.size());
-  std::int64_t offset = begin + before;
-  const auto write = [&](std::string_view bytes)
-  {
-    shared->write_at(offset, bytes);
-    offset += static_cast<std::int64_t>(bytes.size());
-  };
-  write(kept);
-  while (rows.next(part))
-  {
-    std::ranges::for_each(rows.bytes(), write);
-  }
-  shared_size = begin + all;
-}
-
 DumpWriter::DumpWriter(
   std::string path, DumpFormat format, const WriteOptions& options, Communicator& ranks)
   : path_(std::move(path))

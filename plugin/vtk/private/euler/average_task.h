@@ -10,10 +10,10 @@
 #include "private/request/request_task.h"
 
 #include "granular/contacts/find_ends.h"
-#include "granular/euler/cell_weights.h"
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
 #include "granular/euler/grain_values.h"
+#include "granular/kernels/smooth_cells.h"
 #include "granular/parallel/executor.h"
 
 #include <array>
