@@ -39,40 +39,46 @@ void thin(SeekPoints& all)
 }
 
 /// The content of a compressed file: a decoder, and a ring of the last bytes that it gave.
-class Unpacker
+class UnpackedSource final : public ByteSource
 {
 public:
-  Unpacker(std::unique_ptr<Decoder> decoder, std::shared_ptr<const SeekPoints> points,
-    const ByteSource& packed)
-    : decoder_(std::move(decoder))
+  /// found: see Decoder.
+  UnpackedSource(std::unique_ptr<ByteSource> packed, std::shared_ptr<const SeekPoints> points,
+    std::shared_ptr<SeekPoints> found, const MakeDecoder& make_decoder)
+    : packed_(std::move(packed))
+    , decoder_(make_decoder(*packed_, std::move(found)))
     , points_(std::move(points))
-    , packed_(packed)
     , ring_(new char[ring_bytes]) // not value-initialised: many files are smaller
   {
   }
 
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes);
-  const std::string& unchecked() const noexcept { return unchecked_; }
-  std::int64_t packed_position() const noexcept { return decoder_->position(); }
+  const std::string& path() const override { return packed_->path(); }
+  FileStamp stamp() const override { return packed_->stamp(); }
+  bool compressed() const override { return true; }
+  std::string unchecked() const override { return unchecked_; }
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override;
+
+  double fraction(std::int64_t) const override { return packed_->fraction(decoder_->position()); }
 
 private:
-  void go_to(std::int64_t offset);
-  void start_at(const SeekPoints::Point& point);
+  void go_to(std::int64_t offset) const;
+  void start_at(const SeekPoints::Point& point) const;
   std::size_t copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept;
-  bool advance(std::int64_t target);
+  bool advance(std::int64_t target) const;
 
+  std::unique_ptr<ByteSource> packed_;
   std::unique_ptr<Decoder> decoder_;
   std::shared_ptr<const SeekPoints> points_;
-  const ByteSource& packed_;
   std::unique_ptr<char[]> ring_; ///< the byte at an offset lies at offset % ring_bytes
-  std::int64_t begin_ = 0;       ///< of the bytes in the ring
-  std::int64_t end_ = 0;         ///< where the decoder stands, too, unless lost
-  bool lost_ = true;
-  std::exception_ptr damage_;
-  std::string unchecked_;
+  // reading moves these
+  mutable std::int64_t begin_ = 0; ///< of the bytes in the ring
+  mutable std::int64_t end_ = 0;   ///< where the decoder stands, too, unless lost
+  mutable bool lost_ = true;
+  mutable std::exception_ptr damage_;
+  mutable std::string unchecked_;
 };
 
-std::size_t Unpacker::read(std::int64_t offset, char* buffer, std::size_t bytes)
+std::size_t UnpackedSource::read(std::int64_t offset, char* buffer, std::size_t bytes) const
 {
   if (damage_)
   {
@@ -102,7 +108,7 @@ std::size_t Unpacker::read(std::int64_t offset, char* buffer, std::size_t bytes)
 }
 
 /// Starts again where that is needed to read at an offset, or saves decompressing much.
-void Unpacker::go_to(std::int64_t offset)
+void UnpackedSource::go_to(std::int64_t offset) const
 {
   static const SeekPoints::Point start;
   const auto after =
@@ -115,7 +121,7 @@ void Unpacker::go_to(std::int64_t offset)
   }
 }
 
-void Unpacker::start_at(const SeekPoints::Point& point)
+void UnpackedSource::start_at(const SeekPoints::Point& point) const
 {
   lost_ = true;
   decoder_->restart(point);
@@ -125,7 +131,8 @@ void Unpacker::start_at(const SeekPoints::Point& point)
 }
 
 /// Copies what the ring has of [offset, offset + bytes), which does not begin before it.
-std::size_t Unpacker::copy(std::int64_t offset, char* buffer, std::size_t bytes) const noexcept
+std::size_t UnpackedSource::copy(
+  std::int64_t offset, char* buffer, std::size_t bytes) const noexcept
 {
   if (offset >= end_)
   {
@@ -140,7 +147,7 @@ std::size_t Unpacker::copy(std::int64_t offset, char* buffer, std::size_t bytes)
 }
 
 /// Decompresses a step towards an offset into the ring; false at the end.
-bool Unpacker::advance(std::int64_t target)
+bool UnpackedSource::advance(std::int64_t target) const
 {
   const std::size_t at = static_cast<std::size_t>(end_) % ring_bytes;
   const std::size_t step =
@@ -148,7 +155,7 @@ bool Unpacker::advance(std::int64_t target)
   const std::size_t got = decoder_->decode(ring_.get() + at, std::min(step, ring_bytes - at));
   end_ += static_cast<std::int64_t>(got);
   begin_ = std::max(begin_, end_ - static_cast<std::int64_t>(ring_bytes));
-  expect_honest(*decoder_, end_, packed_);
+  expect_honest(*decoder_, end_, *packed_);
   if (got == 0)
   {
     unchecked_.clear();
@@ -160,38 +167,6 @@ bool Unpacker::advance(std::int64_t target)
   }
   return got > 0;
 }
-
-class UnpackedSource final : public ByteSource
-{
-public:
-  /// found: see Decoder.
-  UnpackedSource(std::unique_ptr<ByteSource> packed, std::shared_ptr<const SeekPoints> points,
-    std::shared_ptr<SeekPoints> found, const MakeDecoder& make_decoder)
-    : packed_(std::move(packed))
-    , unpacker_(std::make_unique<Unpacker>(
-        make_decoder(*packed_, std::move(found)), std::move(points), *packed_))
-  {
-  }
-
-  const std::string& path() const override { return packed_->path(); }
-  FileStamp stamp() const override { return packed_->stamp(); }
-  bool compressed() const override { return true; }
-  std::string unchecked() const override { return unpacker_->unchecked(); }
-
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    return unpacker_->read(offset, buffer, bytes);
-  }
-
-  double fraction(std::int64_t) const override
-  {
-    return packed_->fraction(unpacker_->packed_position());
-  }
-
-private:
-  std::unique_ptr<ByteSource> packed_;
-  std::unique_ptr<Unpacker> unpacker_; ///< reading moves it
-};
 
 /// Returns true if data begin with a magic number, or are a part of one that no text begins with.
 bool begins_with(std::string_view data, std::string_view magic)
