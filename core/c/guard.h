@@ -6,7 +6,7 @@
 #include "bad_argument.h"
 #include "granular.h"
 
-#include "granular/common/caught_exception.h"
+#include "granular/common/error.h"
 #include "granular/common/progress.h"
 
 #include <cstring>

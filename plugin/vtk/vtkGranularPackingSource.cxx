@@ -6,7 +6,7 @@
 #include "private/dump/dump_output.h"
 #include "private/request/request_task.h"
 
-#include "granular/common/memory_error.h"
+#include "granular/common/error.h"
 #include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/packing_plan.h"

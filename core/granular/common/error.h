@@ -3,8 +3,10 @@
 #define granular_common_error_h
 
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -19,6 +21,10 @@ struct Where
   std::int64_t byte = -1;  ///< first byte is 0; -1: not known
   std::string column = {}; ///< name of the column as the file spells it
 };
+
+/// Returns a file name, or a text with words of a user, for a message. It is on one line and in UTF-8: control characters become
+/// \n, \t or \x1b, and bytes that are not UTF-8 become \xff.
+std::string shown_path(std::string_view path);
 
 /// Returns "path:line: column 'name'" or "path@byte: column 'name'", as far as known.
 std::string to_string(const Where& where);
@@ -63,11 +69,29 @@ class LimitError : public Error
   using Error::Error;
 };
 
+/// Lack of memory on some rank: the same request may succeed another time, unlike other limits.
+class MemoryError : public LimitError
+{
+  using LimitError::LimitError;
+};
+
 /// Legal, but not supported by this library.
 class UnsupportedError : public Error
 {
   using Error::Error;
 };
+
+/// Returns the exception that a catch-all has caught, to be thrown again later. The end of a thread, as by pthread_exit in a function
+/// for progress, is no exception, and goes on at once.
+inline std::exception_ptr caught_exception()
+{
+  std::exception_ptr caught = std::current_exception();
+  if (!caught)
+  {
+    throw;
+  }
+  return caught;
+}
 
 /// A message for the user that is not an error.
 struct Notice

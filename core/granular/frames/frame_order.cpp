@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/frame_order.h"
 
-#include "granular/common/shown_path.h"
+#include "granular/common/error.h"
 #include "granular/frames/piece_sets.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/mpi/mpi_communicator.h"
 
-#include "granular/common/memory_error.h"
+#include "granular/common/error.h"
 #include "granular/mpi/mpi_file.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/parallel/communicator.h"
 
-#include "granular/common/memory_error.h"
+#include "granular/common/error.h"
 #include "granular/common/pass.h"
 #include "granular/common/progress.h"
 

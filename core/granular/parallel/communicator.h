@@ -3,7 +3,6 @@
 #define granular_parallel_communicator_h
 
 #include "granular/bytes/byte_sink.h"
-#include "granular/common/caught_exception.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 

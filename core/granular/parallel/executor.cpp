@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/parallel/executor.h"
 
-#include "granular/common/caught_exception.h"
+#include "granular/common/error.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/dump/write/dump_writer.h"
 
-#include "granular/common/caught_exception.h"
+#include "granular/common/error.h"
 #include "granular/dump/write/frame_plan.h"
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/sorted_rows.h"

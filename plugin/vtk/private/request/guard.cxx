@@ -3,7 +3,7 @@
 
 #include "private/request/abort.h"
 
-#include "granular/common/memory_error.h"
+#include "granular/common/error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
