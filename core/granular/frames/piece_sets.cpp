@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/piece_sets.h"
 
-#include "granular/frames/numbered_name.h"
+#include "granular/frames/named_steps.h"
 #include "granular/numbers/number.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "granular/dump/formats/text_dump.h"
 #include "granular/frames/file_index.h"
-#include "granular/frames/numbered_name.h"
+#include "granular/frames/named_steps.h"
 #include "granular/numbers/number.h"
 
 #include <algorithm>
