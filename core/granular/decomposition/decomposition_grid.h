@@ -4,7 +4,6 @@
 
 #include "granular/decomposition/subdomains.h"
 #include "granular/decomposition/voxels.h"
-#include "granular/vtk_files/vtk_corners.h"
 #include "granular/vtk_files/vtk_grid.h"
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "granular/memory/block.h"
 #include "granular/memory/block_pool.h"
 #include "granular/parallel/executor.h"
-#include "granular/vtk_files/vtk_corners.h"
+#include "granular/vtk_files/vtk_grid.h"
 
 #include <array>
 #include <cstdint>
