@@ -3,7 +3,6 @@
 
 #include "granular/common/shares.h"
 #include "granular/data_file/data_file.h"
-#include "granular/data_file/section_join.h"
 #include "granular/data_file/section_rows.h"
 #include "granular/geometry/region.h"
 #include "granular/local/join.h"
