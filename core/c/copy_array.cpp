@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of one type as those of another.
-#include "bad_argument.h"
 #include "frame.h"
 
 #include "granular/numbers/number_print.h"

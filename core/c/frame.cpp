@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame.h"
 
-#include "bad_argument.h"
-
 #include "granular/local/local_columns.h"
 #include "granular/particles/column_arrays.h"
 

@@ -5,6 +5,7 @@
 
 #include "granular.h"
 
+#include "granular/common/error.h"
 #include "granular/frames/run_index.h"
 #include "granular/local/local_reader.h"
 #include "granular/particles/dump_frame.h"
@@ -19,6 +20,12 @@
 
 namespace granular_c
 {
+/// An argument of the caller that cannot be used.
+class BadArgument : public granular::Error
+{
+  using Error::Error;
+};
+
 /// An array of a frame that was read.
 struct FrameArray
 {

@@ -3,7 +3,7 @@
 #ifndef granular_c_guard_h
 #define granular_c_guard_h
 
-#include "bad_argument.h"
+#include "frame.h"
 #include "granular.h"
 
 #include "granular/common/error.h"

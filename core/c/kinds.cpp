@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ways from files of each kind to frames.
-#include "bad_argument.h"
 #include "run.h"
 
 #include "granular/data_file/data_file.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run.h"
 
-#include "bad_argument.h"
-
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
 #include "granular/numbers/number_print.h"

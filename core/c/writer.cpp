@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "writer.h"
 
-#include "bad_argument.h"
-
 #include "granular/decomposition/decomposition_text.h"
 #include "granular/dump/write/dump_writer.h"
 #include "granular/euler/euler_text.h"
