@@ -5,7 +5,6 @@
 #include "granular/bytes/byte_source.h"
 #include "granular/common/progress.h"
 #include "granular/restart/restart_bytes.h"
-#include "granular/restart/restart_header.h"
 #include "granular/restart/restart_layout.h"
 
 #include <cstdint>

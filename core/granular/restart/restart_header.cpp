@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/restart/restart_header.h"
-
 #include "granular/common/error.h"
 #include "granular/geometry/compensated.h"
 #include "granular/restart/header_fields.h"
 #include "granular/restart/restart_bytes.h"
+#include "granular/restart/restart_layout.h"
 
 #include <array>
 #include <cmath>
