@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places of the parts of a record, by a plan.
 #include "granular/numbers/number_print.h"
-#include "granular/restart/record_places.h"
 #include "granular/restart/record_plan.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "granular/restart/record_plan.h"
 
 #include "granular/common/words.h"
-#include "granular/restart/record_places.h"
 #include "granular/restart/record_scan.h"
 
 #include <algorithm>
