@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame.h"
 
+#include "granular/common/words.h"
 #include "granular/local/local_columns.h"
 #include "granular/particles/column_arrays.h"
 
@@ -9,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -212,12 +214,9 @@ const FrameArray& find_array(const granular_frame& frame, std::string_view name)
   {
     return *found;
   }
-  std::string list;
-  for (const FrameArray& array : frame.arrays)
-  {
-    list += (list.empty() ? "" : ", ") + array.name;
-  }
-  throw BadArgument("expected an array of " + list + ", got '" + std::string(name) + "'");
+  throw BadArgument("expected an array of " +
+    join_words(frame.arrays | std::views::transform(&FrameArray::name), ", ") + ", got '" +
+    std::string(name) + "'");
 }
 
 Box make_box(const granular_box& box)

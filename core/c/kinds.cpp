@@ -2,6 +2,7 @@
 // The ways from files of each kind to frames.
 #include "run.h"
 
+#include "granular/common/words.h"
 #include "granular/data_file/data_file.h"
 #include "granular/data_file/read_data.h"
 #include "granular/decomposition/decomposition_file.h"
@@ -15,6 +16,7 @@
 #include "granular/restart/restart_reader.h"
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -111,12 +113,9 @@ std::vector<std::string> find_meaning(
     const auto preset = std::ranges::find(local_presets(), run.preset, &LocalPreset::name);
     if (preset == local_presets().end())
     {
-      std::string list = "Automatic, AsNamed";
-      for (const LocalPreset& each : local_presets())
-      {
-        list += ", " + std::string(each.name);
-      }
-      throw BadArgument("expected a preset of " + list + ", got '" + run.preset + "'");
+      throw BadArgument("expected a preset of Automatic, AsNamed, " +
+        join_words(local_presets() | std::views::transform(&LocalPreset::name), ", ") + ", got '" +
+        run.preset + "'");
     }
     return name_columns(columns, *preset);
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <ranges>
 #include <utility>
 
 namespace granular_c
@@ -227,12 +228,9 @@ std::unique_ptr<granular_frame> granular_run::read(
     if (name != points_name && name != ends_name && name != "length" &&
       std::ranges::find(there, name, &OfferedArray::name) == there.end())
     {
-      std::string list;
-      for (const OfferedArray& array : there)
-      {
-        list += (list.empty() ? "" : ", ") + array.name;
-      }
-      throw BadArgument("expected an array of " + list + ", got '" + name + "'",
+      throw BadArgument("expected an array of " +
+          join_words(there | std::views::transform(&OfferedArray::name), ", ") + ", got '" + name +
+          "'",
         where_of(index.first_piece(frame)));
     }
   }

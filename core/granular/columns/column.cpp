@@ -2,11 +2,13 @@
 #include "granular/columns/column.h"
 
 #include "granular/columns/known_columns.h"
+#include "granular/common/words.h"
 
 #include <algorithm>
 #include <charconv>
 #include <iterator>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -240,8 +242,7 @@ int ColumnSchema::find(ColumnRole role, int component) const noexcept
 
 int ColumnSchema::find_array(std::string_view name) const noexcept
 {
-  const auto found = std::find_if(
-    arrays_.begin(), arrays_.end(), [name](const ArrayInfo& array) { return array.name == name; });
+  const auto found = std::ranges::find(arrays_, name, &ArrayInfo::name);
   return found == arrays_.end() ? -1 : static_cast<int>(found - arrays_.begin());
 }
 
@@ -260,12 +261,7 @@ std::vector<int> ColumnSchema::arrays_of_columns() const
 
 std::string ColumnSchema::text() const
 {
-  std::string text;
-  for (const ColumnInfo& column : columns_)
-  {
-    text += (text.empty() ? "" : " ") + column.name;
-  }
-  return text;
+  return join_words(columns_ | std::views::transform(&ColumnInfo::name));
 }
 
 void ColumnSchema::set_types(std::span<const TypeChange> changes)

@@ -49,14 +49,14 @@ inline std::vector<std::string_view> split_words(std::string_view line)
   return words;
 }
 
-/// Returns words, separated by blanks.
+/// Returns words with something between them.
 template <class Words>
-std::string join_words(const Words& words)
+std::string join_words(const Words& words, std::string_view between = " ")
 {
   std::string text;
   for (const auto& word : words)
   {
-    text.append(text.empty() ? "" : " ").append(word);
+    text.append(text.empty() ? std::string_view() : between).append(word);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 #include <set>
 
 namespace granular
@@ -75,10 +76,8 @@ bool fits(const AtomStyle& style, const DataLayout& layout)
 
 std::string names_of(const std::vector<const AtomStyle*>& list)
 {
-  Words names;
-  std::ranges::transform(
-    list, std::back_inserter(names), [](const AtomStyle* style) { return style->name; });
-  return join_words(names);
+  return join_words(
+    list | std::views::transform([](const AtomStyle* style) { return style->name; }));
 }
 
 std::vector<const AtomStyle*> all_styles()

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 
 namespace granular
 {
@@ -44,12 +45,9 @@ T choose(
     [&](const Choice<T>& choice) { return choice.word == word || (optional && word.empty()); });
   if (found == std::end(choices))
   {
-    std::string all;
-    for (const Choice<T>& choice : choices)
-    {
-      all.append(all.empty() ? "" : " or ").append(choice.word);
-    }
-    tags.fail("the " + std::string(attribute) + " " + all, quoted(word));
+    tags.fail("the " + std::string(attribute) + " " +
+        join_words(choices | std::views::transform(&Choice<T>::word), " or "),
+      quoted(word));
   }
   return found->value;
 }
