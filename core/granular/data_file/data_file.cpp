@@ -34,27 +34,16 @@ std::int64_t end_of(const ByteSource& source, const DataLayout& layout)
 void index_data_file(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
-  if (!index.kinds)
-  {
-    index.kinds = std::make_shared<FrameKinds>();
-  }
-  index.frames.clear(); // the file is read as a whole, whatever was there before
-  index.defect.reset();
-  index.resume_offset = 0;
-  index.resume_line = 1;
+  forget_frames(index);
   try
   {
     const auto found = std::make_shared<const DataLayout>(read_data_layout(source, progress));
-    const DataLayout& layout = *found;
-    FrameEntry entry;
-    entry.timestep = layout.timestep;
-    entry.rows = layout.atoms;
-    entry.end = end_of(source, layout);
-    entry.line = 1;
-    entry.kind = index.kinds->share(FrameKind{});
-    index.frames.push_back(std::move(entry));
-    index.resume_offset = index.frames.back().end;
-    index.layout = found;
+    add_whole(index,
+      { .timestep = found->timestep,
+        .rows = found->atoms,
+        .end = end_of(source, *found),
+        .line = 1 },
+      found);
   }
   catch (const FormatError& error)
   {
@@ -62,11 +51,9 @@ void index_data_file(
     {
       throw; // compressed data that are damaged
     }
-    set_defect(index, { error.where(), error.text() });
-    index.notices.push_back({ error.where(), error.text() + "; the file is left out" });
+    leave_out(index, error);
   }
 }
-
 }
 
 const FileFormat& data_file_format() noexcept
@@ -84,13 +71,7 @@ std::shared_ptr<const DataLayout> find_data_layout(
 
 bool is_data_file(const std::string& path) noexcept
 {
-  try
-  {
-    return starts_data_file(first_bytes_of(*unpack(open_file(path))));
-  }
-  catch (const std::exception&)
-  {
-    return false;
-  }
+  return looks_so(
+    path, [](const ByteSource& source) { return starts_data_file(first_bytes_of(source)); });
 }
 }

@@ -167,10 +167,6 @@ void index_legacy(const ByteSource& source, FileIndex& index, Progress& progress
 void index_decomposition(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
-  if (!index.kinds)
-  {
-    index.kinds = std::make_shared<FrameKinds>();
-  }
   if (look_at(read_head(source)).unstructured)
   {
     index_vtu(source, index);

@@ -50,14 +50,7 @@ void add_frame(LegacyVtk& file, const EulerDataset& dataset, FileIndex& index)
 /// A file is one frame, and looked at from its beginning: arrays may have come.
 void index_euler(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
-  if (!index.kinds)
-  {
-    index.kinds = std::make_shared<FrameKinds>();
-  }
-  index.frames.clear();
-  index.defect.reset();
-  index.resume_offset = 0;
-  index.resume_line = 1;
+  forget_frames(index);
   LegacyVtk file(source, {}, LegacyVtk::no_end, progress);
   if (!file.at_header() && file.at_end())
   {

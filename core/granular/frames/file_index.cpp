@@ -179,6 +179,29 @@ void set_defect(FileIndex& index, const Notice& defect)
   }
 }
 
+void forget_frames(FileIndex& index)
+{
+  index.frames.clear();
+  index.beside.clear();
+  index.defect.reset();
+  index.resume_offset = 0;
+  index.resume_line = 1;
+}
+
+void add_whole(FileIndex& index, FrameEntry entry, std::shared_ptr<const FileLayout> layout)
+{
+  entry.kind = index.kinds->share(FrameKind{});
+  index.resume_offset = entry.end;
+  index.layout = std::move(layout);
+  index.frames.push_back(std::move(entry));
+}
+
+void leave_out(FileIndex& index, const Error& error)
+{
+  set_defect(index, { error.where(), error.text() });
+  index.notices.push_back({ error.where(), error.text() + "; the file is left out" });
+}
+
 std::string first_bytes_of(const ByteSource& source)
 {
   return read_up_to(source, 65536);

@@ -45,11 +45,11 @@ struct FileIndex
   std::exception_ptr error;     ///< the file could not be opened or read
   bool unnamed = false;         ///< binary, without the names of its columns
   bool compressed = false;      ///< gzip or Zstandard
-  std::vector<std::string> column_names;    ///< of the user, for such a file
-  std::shared_ptr<SeekPoints> points;       ///< of a compressed file
-  std::shared_ptr<FrameKinds> kinds;        ///< may be shared by files; made if missing
-  std::shared_ptr<const FileLayout> layout; ///< see known_layout
-  const FileFormat* format = nullptr;       ///< must be there to be updated
+  std::vector<std::string> column_names; ///< of the user, for such a file
+  std::shared_ptr<SeekPoints> points;    ///< of a compressed file
+  std::shared_ptr<FrameKinds> kinds = std::make_shared<FrameKinds>(); ///< may be shared by files
+  std::shared_ptr<const FileLayout> layout;                           ///< see known_layout
+  const FileFormat* format = nullptr; ///< must be there to be updated
 };
 
 /// Returns the first 64 KiB of a file, decompressed: enough for many headers of ordinary length, and all that is read to
@@ -106,6 +106,15 @@ std::unique_ptr<ByteSource> open_indexed(
 
 /// Returns the hash of the first 4 KiB of a file and of the 4 KiB before a size.
 std::uint64_t hash_ends(const ByteSource& packed, std::int64_t size);
+
+/// Forgets the frames of a file that is one frame, and read as a whole whatever was there before.
+void forget_frames(FileIndex& index);
+
+/// Adds the frame of such a file.
+void add_whole(FileIndex& index, FrameEntry entry, std::shared_ptr<const FileLayout> layout);
+
+/// Leaves out a file with a defect, which a notice tells.
+void leave_out(FileIndex& index, const Error& error);
 
 /// Sets the defect of a file unless it has one: the first defect is reported if there is no frame at all.
 void set_defect(FileIndex& index, const Notice& defect);

@@ -88,7 +88,7 @@ struct FrameEntry
   std::int64_t line = 0;       ///< of the header, from 1; binary: 0
   double time = no_time;       ///< of the header
   std::uint64_t shape = whole; ///< hash of the box and the names of the columns: see hash_shape
-  std::shared_ptr<const FrameKind> kind;
+  std::shared_ptr<const FrameKind> kind = {};
 };
 
 /// Returns what pieces of one frame must share: a hash of the box and the column names.

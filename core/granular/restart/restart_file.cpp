@@ -18,24 +18,9 @@ constexpr std::string_view part_text = "expected a restart file, got what one of
                                        "has written of it: open the file with "
                                        "'base' in its name";
 
-void leave_out(FileIndex& index, const Notice& notice)
-{
-  set_defect(index, notice);
-  index.notices.push_back(notice);
-  index.notices.back().text += "; the file is left out";
-}
-
 void index_restart(const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
-  if (!index.kinds)
-  {
-    index.kinds = std::make_shared<FrameKinds>();
-  }
-  index.frames.clear();
-  index.beside.clear();
-  index.defect.reset();
-  index.resume_offset = 0;
-  index.resume_line = 1;
+  forget_frames(index);
   if (is_process_file(source))
   {
     set_defect(index, { { source.path() }, std::string(part_text) });
@@ -47,14 +32,12 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
     const auto found =
       std::make_shared<const RestartLayout>(read_layout(source, notices, progress));
     const RestartLayout& layout = *found;
-    FrameEntry entry;
-    entry.timestep = layout.header.timestep;
-    entry.rows = layout.records;
-    entry.end = layout.size;
-    entry.time = layout.header.time.value_or(FrameEntry::no_time);
-    entry.kind = index.kinds->share(FrameKind{});
-    index.frames.push_back(std::move(entry));
-    index.resume_offset = layout.size;
+    add_whole(index,
+      { .timestep = layout.header.timestep,
+        .rows = layout.records,
+        .end = layout.size,
+        .time = layout.header.time.value_or(FrameEntry::no_time) },
+      found);
     for (const RestartChunk& chunk : layout.chunks)
     {
       if (!chunk.path.empty())
@@ -62,7 +45,6 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
         index.beside.push_back({ chunk.path, chunk.stamp });
       }
     }
-    index.layout = found;
   }
   catch (const FormatError& error)
   {
@@ -71,11 +53,11 @@ void index_restart(const ByteSource& source, FileIndex& index, Progress& progres
       // it may come, or be completed, and this file does not change then
       index.beside.push_back({ error.where().path, stamp_of(error.where().path) });
     }
-    leave_out(index, { error.where(), error.text() });
+    leave_out(index, error);
   }
   catch (const UnsupportedError& error)
   {
-    leave_out(index, { error.where(), error.text() });
+    leave_out(index, error);
   }
 }
 

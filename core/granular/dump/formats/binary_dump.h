@@ -24,7 +24,7 @@ bool holds_binary(std::string_view first_bytes) noexcept;
 std::string describe_first_row(
   const ByteSource& source, std::int64_t offset, const BinaryLayout& layout);
 
-/// Indexes a binary file: see index_dump. index.kinds must be set. Skips the values from chunk to chunk.
+/// Indexes a binary file: see index_dump. Skips the values from chunk to chunk.
 ///
 /// Files without magic, and those of revision 1, do not name their columns; index.column_names must name all of them. If it
 /// is empty, frames of 5 or 8 columns are taken for dump atom, and the box tells which coordinates they hold: see fit_atom.

@@ -81,10 +81,6 @@ bool is_dump_file(const std::string& path) noexcept
 void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
-  if (!index.kinds)
-  {
-    index.kinds = std::make_shared<FrameKinds>();
-  }
   std::array<char, 4096> first;
   if (holds_binary({ first.data(), source.read(0, first.data(), first.size()) }))
   {

@@ -28,7 +28,7 @@ bool is_text_of_others(std::string_view first_bytes);
 bool makes_columns(const std::vector<std::string>& names,
   const std::vector<std::string_view>& first_row, const ColumnSchema& schema);
 
-/// Indexes a text dump; see index_dump. index.kinds must be set.
+/// Indexes a text dump; see index_dump.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
   const ScanAhead& ahead = {}, RowsOf rows_of = RowsOf::Particles);
 
