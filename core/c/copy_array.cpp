@@ -146,20 +146,4 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
         });
     });
 }
-
-void read_numbers(
-  const ArrayView& array, int component, std::int64_t rows, double* to, std::int64_t step)
-{
-  with_type(array.type,
-    [&](auto* type)
-    {
-      using From = std::remove_pointer_t<decltype(type)>;
-      const auto* const from =
-        static_cast<const From*>(array.components[static_cast<std::size_t>(component)]);
-      for (std::int64_t row = 0; row < rows; ++row)
-      {
-        to[row * step] = static_cast<double>(from[row * array.step]);
-      }
-    });
-}
 }

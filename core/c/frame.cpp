@@ -12,7 +12,6 @@
 #include <map>
 #include <ranges>
 #include <set>
-#include <type_traits>
 #include <utility>
 
 const granular_c::FrameArray* granular_frame::find(std::string_view name) const noexcept
@@ -30,7 +29,7 @@ namespace
 
 void check_array(const granular_array& array, std::int64_t rows)
 {
-  const std::string name = array.name == nullptr ? "" : array.name;
+  const std::string name = text_of(array.name);
   const auto expect = [&](bool is, const std::string& what)
   {
     if (!is)
@@ -106,16 +105,6 @@ void add_ends(FrameView& view, const ArrayView& ends)
   }
 }
 
-template <class Values>
-void add_values(granular_frame& frame, std::string name, ValueType type, int components,
-  Values&& values, const KnownColumn* known)
-{
-  auto memory = std::make_shared<std::remove_cvref_t<Values>>(std::forward<Values>(values));
-  const void* const data = memory->data();
-  frame.arrays.push_back(
-    { std::move(name), type, components, data, std::move(memory), {}, {}, known });
-}
-
 void take_header(granular_frame& frame, DumpFrame& rows)
 {
   frame.header = std::move(rows.header);
@@ -143,24 +132,6 @@ void take_header(granular_frame& frame, DumpFrame& rows)
   }
   frame.column_text = rows.schema.text();
 }
-}
-
-void add_array(granular_frame& frame, std::string name, ValueType type, int components,
-  Block&& block, const KnownColumn* known)
-{
-  add_values(frame, std::move(name), type, components, std::move(block), known);
-}
-
-void add_array(granular_frame& frame, std::string name, int components,
-  std::vector<double>&& values, const KnownColumn* known)
-{
-  add_values(frame, std::move(name), ValueType::Float64, components, std::move(values), known);
-}
-
-void add_array(granular_frame& frame, std::string name, std::vector<std::int64_t>&& values,
-  const KnownColumn* known)
-{
-  add_values(frame, std::move(name), ValueType::Int64, 1, std::move(values), known);
 }
 
 const KnownColumn* find_known(std::string_view array, std::span<const KnownColumn> table) noexcept
@@ -234,7 +205,7 @@ Box make_box(const granular_box& box)
     ? Box::from_edges({ box.origin[0], box.origin[1], box.origin[2] }, edges)
     : tilted ? Box::from_tilted_bounds(lo, hi, b[6], b[7], b[8])
              : Box::from_bounds(lo, hi);
-  made.boundary = box.boundary == nullptr ? "" : box.boundary;
+  made.boundary = text_of(box.boundary);
   return made;
 }
 
@@ -291,7 +262,7 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
   {
     view.header.time = content.time;
   }
-  view.header.units = content.units == nullptr ? "" : content.units;
+  view.header.units = text_of(content.units);
   view.has_box = content.box != nullptr;
   if (content.box != nullptr)
   {

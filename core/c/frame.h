@@ -16,6 +16,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace granular_c
@@ -72,13 +74,22 @@ namespace granular_c
 inline constexpr const char* points_name = "points";
 inline constexpr const char* ends_name = "ends";
 
-/// Adds an array whose memory it takes.
+/// Returns a text of the caller; null is an empty one.
+inline std::string text_of(const char* text)
+{
+  return text == nullptr ? std::string() : std::string(text);
+}
+
+/// Adds an array whose memory it takes: a block or a vector.
+template <class Values>
 void add_array(granular_frame& frame, std::string name, granular::ValueType type, int components,
-  granular::Block&& block, const granular::KnownColumn* known = nullptr);
-void add_array(granular_frame& frame, std::string name, int components,
-  std::vector<double>&& values, const granular::KnownColumn* known = nullptr);
-void add_array(granular_frame& frame, std::string name, std::vector<std::int64_t>&& values,
-  const granular::KnownColumn* known = nullptr);
+  Values&& values, const granular::KnownColumn* known = nullptr)
+{
+  auto memory = std::make_shared<std::remove_cvref_t<Values>>(std::forward<Values>(values));
+  const void* const data = memory->data();
+  frame.arrays.push_back(
+    { std::move(name), type, components, data, std::move(memory), {}, {}, known });
+}
 
 /// Takes the rows of a dump, or of a table of local data with its ends; `table` knows their units.
 void take_rows(
@@ -103,10 +114,6 @@ granular::Box make_box(const granular_box& box);
 
 /// Returns the box of a frame; its boundary belongs to the header.
 granular_box box_of(const granular::FrameHeader& header);
-
-/// Reads one component of an array as doubles, each `step` after the one before.
-void read_numbers(const granular::ArrayView& array, int component, std::int64_t rows, double* to,
-  std::int64_t step);
 
 /// A frame as writers take it; the frame must outlive it.
 struct WriteView

@@ -34,27 +34,21 @@ struct LastError
 
 thread_local LastError last_error;
 
+template <class Known>
+bool is(const granular::Error& error) noexcept
+{
+  return dynamic_cast<const Known*>(&error) != nullptr;
+}
+
 granular_status status_of(const granular::Error& error) noexcept
 {
-  if (dynamic_cast<const BadArgument*>(&error) != nullptr)
-  {
-    return GRANULAR_BAD_ARGUMENT;
-  }
-  if (dynamic_cast<const granular::IoError*>(&error) != nullptr)
-  {
-    return GRANULAR_IO_ERROR;
-  }
-  if (dynamic_cast<const granular::FormatError*>(&error) != nullptr)
-  {
-    return GRANULAR_FORMAT_ERROR;
-  }
-  if (dynamic_cast<const granular::LimitError*>(&error) != nullptr)
-  {
-    return GRANULAR_LIMIT_ERROR;
-  }
-  return dynamic_cast<const granular::UnsupportedError*>(&error) != nullptr
+  return is<BadArgument>(error)        ? GRANULAR_BAD_ARGUMENT
+    : is<granular::IoError>(error)     ? GRANULAR_IO_ERROR
+    : is<granular::FormatError>(error) ? GRANULAR_FORMAT_ERROR
+    : is<granular::LimitError>(error)  ? GRANULAR_LIMIT_ERROR
+    : is<granular::UnsupportedError>(error)
     ? GRANULAR_UNSUPPORTED
-    : GRANULAR_BAD_ARGUMENT; // of a format, a column or a frame that cannot be
+    : GRANULAR_BAD_ARGUMENT; // a format, a column or a frame
 }
 }
 

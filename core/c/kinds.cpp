@@ -302,12 +302,12 @@ void read_euler_frame(granular_run& run, std::size_t frame, const Wanted& wanted
   std::copy_n(wanted.request.origin, 3, to.origin.begin());
   if (wanted.request.points != 0 && (wanted.all || wanted.is_wanted(points_name, true)))
   {
-    add_array(to, points_name, 3, std::move(cells.centres), cell_columns);
+    add_array(to, points_name, ValueType::Float64, 3, std::move(cells.centres), cell_columns);
   }
   for (EulerValues& array : cells.arrays)
   {
-    const KnownColumn* known = find_known_column(array.name, cell_columns);
-    add_array(to, array.name, array.components, std::move(array.values), known);
+    add_array(to, array.name, ValueType::Float64, array.components, std::move(array.values),
+      find_known_column(array.name, cell_columns));
   }
 }
 
@@ -356,23 +356,23 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
     particles.push_back(each.particles);
     ranks.push_back(each.rank);
   }
-  const auto is_wanted = [&](std::size_t which)
-  { return wanted.is_wanted(subdomain_columns[which].name, true); };
-  if (is_wanted(0))
+  const auto add = [&](const KnownColumn& known, auto& values)
   {
-    add_array(to, "lo", 3, std::move(lo), &subdomain_columns[0]);
+    if (wanted.is_wanted(known.name, true))
+    {
+      add_array(
+        to, std::string(known.name), known.type, known.components, std::move(values), &known);
+    }
+  };
+  add(subdomain_columns[0], lo);
+  add(subdomain_columns[1], hi);
+  if (all.has_particles)
+  {
+    add(subdomain_columns[2], particles);
   }
-  if (is_wanted(1))
+  if (all.has_ranks)
   {
-    add_array(to, "hi", 3, std::move(hi), &subdomain_columns[1]);
-  }
-  if (all.has_particles && is_wanted(2))
-  {
-    add_array(to, "nlocal", std::move(particles), &subdomain_columns[2]);
-  }
-  if (all.has_ranks && is_wanted(3))
-  {
-    add_array(to, "proc", std::move(ranks), &subdomain_columns[3]);
+    add(subdomain_columns[3], ranks);
   }
 }
 }

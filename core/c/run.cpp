@@ -18,11 +18,6 @@ using namespace granular;
 
 namespace
 {
-std::string text_of(const char* text)
-{
-  return text == nullptr ? std::string() : std::string(text);
-}
-
 const Kind& find_kind(granular_kind wanted, const std::string& path)
 {
   for (const Kind& kind : kinds())

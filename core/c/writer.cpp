@@ -19,11 +19,6 @@ using namespace granular;
 
 namespace
 {
-std::string text_of(const char* text)
-{
-  return text == nullptr ? std::string() : std::string(text);
-}
-
 /// A choice of words; an empty one and "Automatic" are none.
 template <class Value, std::size_t N>
 std::optional<Value> choose(
