@@ -6,10 +6,13 @@
 #include "granular/euler/euler_text.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
+#include "granular/particles/point_forms.h"
 #include "granular/writing/whole_writer.h"
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -88,19 +91,79 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
       std::to_string(components) + (components == 1 ? " component" : " components") + ", got " +
       (array == nullptr ? std::string("none") : std::to_string(array->size())));
   }
-  std::vector<double> values(static_cast<std::size_t>(frame.rows * components));
-  for (int i = 0; frame.rows > 0 && i < components; ++i)
+  std::vector<ValueSource> sources;
+  for (int i = 0; i < components; ++i)
   {
-    read_numbers(*array, i, frame.rows, values.data() + i, components);
+    sources.push_back(component_of(*array, i));
   }
+  std::vector<std::int64_t> rows(static_cast<std::size_t>(frame.rows));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::vector<double> values(rows.size() * sources.size());
+  load_rows(sources, rows, values.data());
   return values;
 }
 
-class TextWriter : public granular_writer
+std::string text_of_cells(
+  const FrameView& frame, EulerDialect dialect, Notices& notices, Progress& progress)
+{
+  EulerCells cells;
+  cells.centres = doubles_of(frame, points_name, 3);
+  for (std::size_t i = 0; i < cells.centres.size(); ++i)
+  {
+    cells.centres[i] += frame.point_origin[i % 3];
+  }
+  for (const EulerArray& array : euler_arrays())
+  {
+    if (!array.optional || frame.find(array.name) != nullptr)
+    {
+      cells.*array.values = doubles_of(frame, array.name, array.components);
+    }
+  }
+  return encode_euler(cells, dialect, notices, progress);
+}
+
+Decomposition decomposition_of(const FrameView& frame)
+{
+  const std::vector<double> lo = doubles_of(frame, "lo", 3);
+  const std::vector<double> hi = doubles_of(frame, "hi", 3);
+  Decomposition all;
+  all.has_particles = frame.find("nlocal") != nullptr;
+  all.has_ranks = frame.find("proc") != nullptr;
+  const auto optional = [&](bool there, const char* name)
+  {
+    return there ? doubles_of(frame, name, 1)
+                 : std::vector<double>(static_cast<std::size_t>(frame.rows));
+  };
+  const std::vector<double> particles = optional(all.has_particles, "nlocal");
+  const std::vector<double> ranks = optional(all.has_ranks, "proc");
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    constexpr double most = 9007199254740992; // 2^53
+    if (!(particles[i] >= 0 && particles[i] <= most && ranks[i] >= 0 && ranks[i] <= INT32_MAX))
+    {
+      throw BadArgument("subdomain " + std::to_string(i) +
+        ": expected a number of particles and a rank of at least 0, got " + to_text(particles[i]) +
+        " and " + to_text(ranks[i]));
+    }
+    Subdomain one;
+    std::copy_n(lo.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.lo.begin());
+    std::copy_n(hi.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.hi.begin());
+    one.particles = static_cast<std::int64_t>(particles[i]);
+    one.rank = static_cast<int>(ranks[i]);
+    all.subdomains.push_back(one);
+  }
+  return all;
+}
+
+class TextWriter final : public granular_writer
 {
 public:
-  TextWriter(RowKind of, const std::string& to, bool holds_many, const granular_format& format)
+  using Encode = std::function<std::string(const FrameView&, Notices&, Progress&)>;
+
+  TextWriter(RowKind of, const std::string& to, bool holds_many, Encode encode,
+    const granular_format& format)
     : granular_writer(of, to, format)
+    , encode_(std::move(encode))
     , writer_(to, holds_many, options_of(format, inputs), alone_)
   {
   }
@@ -108,101 +171,15 @@ public:
   void write(const FrameView& frame, Notices& notices, Progress& progress) override
   {
     writer_.write(
-      frame.header.timestep, [&](Notices& own) { return this->encode(frame, own, progress); },
-      notices);
+      frame.header.timestep, [&](Notices& own) { return encode_(frame, own, progress); }, notices);
   }
 
   void finish() override { writer_.finish(); }
 
-protected:
-  virtual std::string encode(const FrameView& frame, Notices& notices, Progress& progress) = 0;
-
 private:
+  Encode encode_;
   SerialCommunicator alone_;
   WholeWriter writer_;
-};
-
-class CellsWriter final : public TextWriter
-{
-public:
-  CellsWriter(const std::string& to, EulerDialect dialect, const granular_format& format)
-    : TextWriter(RowKind::Cells, to, false, format)
-    , dialect_(dialect)
-  {
-  }
-
-private:
-  std::string encode(const FrameView& frame, Notices& notices, Progress& progress) override
-  {
-    EulerCells cells;
-    cells.centres = doubles_of(frame, points_name, 3);
-    for (std::size_t i = 0; i < cells.centres.size(); ++i)
-    {
-      cells.centres[i] += frame.point_origin[i % 3];
-    }
-    for (const EulerArray& array : euler_arrays())
-    {
-      if (!array.optional || frame.find(array.name) != nullptr)
-      {
-        cells.*array.values = doubles_of(frame, array.name, array.components);
-      }
-    }
-    return encode_euler(cells, dialect_, notices, progress);
-  }
-
-  EulerDialect dialect_;
-};
-
-enum class VoxelDialect : std::uint8_t
-{
-  Inl,
-  Public
-};
-
-class SubdomainsWriter final : public TextWriter
-{
-public:
-  SubdomainsWriter(const std::string& to, VoxelDialect dialect, const granular_format& format)
-    : TextWriter(RowKind::Subdomains, to, dialect == VoxelDialect::Public, format)
-    , dialect_(dialect)
-  {
-  }
-
-private:
-  std::string encode(const FrameView& frame, Notices& notices, Progress& progress) override
-  {
-    const std::vector<double> lo = doubles_of(frame, "lo", 3);
-    const std::vector<double> hi = doubles_of(frame, "hi", 3);
-    Decomposition all;
-    all.has_particles = frame.find("nlocal") != nullptr;
-    all.has_ranks = frame.find("proc") != nullptr;
-    const auto optional = [&](bool there, const char* name)
-    {
-      return there ? doubles_of(frame, name, 1)
-                   : std::vector<double>(static_cast<std::size_t>(frame.rows));
-    };
-    const std::vector<double> particles = optional(all.has_particles, "nlocal");
-    const std::vector<double> ranks = optional(all.has_ranks, "proc");
-    for (std::size_t i = 0; i < particles.size(); ++i)
-    {
-      constexpr double most = 9007199254740992; // 2^53
-      if (!(particles[i] >= 0 && particles[i] <= most && ranks[i] >= 0 && ranks[i] <= INT32_MAX))
-      {
-        throw BadArgument("subdomain " + std::to_string(i) +
-          ": expected a number of particles and a rank of at least 0, got " +
-          to_text(particles[i]) + " and " + to_text(ranks[i]));
-      }
-      Subdomain one;
-      std::copy_n(lo.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.lo.begin());
-      std::copy_n(hi.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, one.hi.begin());
-      one.particles = static_cast<std::int64_t>(particles[i]);
-      one.rank = static_cast<int>(ranks[i]);
-      all.subdomains.push_back(one);
-    }
-    return dialect_ == VoxelDialect::Inl ? encode_voxels(all, progress) : encode_grid(all, notices);
-  }
-
-  VoxelDialect dialect_;
 };
 
 // ---- the styles --------------------------------------------------------------------------------
@@ -240,18 +217,29 @@ std::unique_ptr<granular_writer> create_cells(
   constexpr std::array<std::pair<const char*, EulerDialect>, 2> dialects = {
     { { "LIGGGHTS", EulerDialect::Liggghts }, { "Wide", EulerDialect::Wide } }
   };
-  return std::make_unique<CellsWriter>(
-    path, choose("dialect", format.dialect, dialects).value_or(EulerDialect::Automatic), format);
+  const EulerDialect dialect =
+    choose("dialect", format.dialect, dialects).value_or(EulerDialect::Automatic);
+  return std::make_unique<TextWriter>(
+    RowKind::Cells, path, false,
+    [dialect](const FrameView& frame, Notices& notices, Progress& progress)
+    { return text_of_cells(frame, dialect, notices, progress); },
+    format);
 }
 
 std::unique_ptr<granular_writer> create_subdomains(
   const std::string& path, const granular_format& format)
 {
-  constexpr std::array<std::pair<const char*, VoxelDialect>, 2> dialects = {
-    { { "INL", VoxelDialect::Inl }, { "PUBLIC", VoxelDialect::Public } }
-  };
-  return std::make_unique<SubdomainsWriter>(
-    path, choose("dialect", format.dialect, dialects).value_or(VoxelDialect::Inl), format);
+  constexpr std::array<std::pair<const char*, bool>, 2> dialects = { { { "INL", false },
+    { "PUBLIC", true } } };
+  const bool is_public = choose("dialect", format.dialect, dialects).value_or(false);
+  return std::make_unique<TextWriter>(
+    RowKind::Subdomains, path, is_public,
+    [is_public](const FrameView& frame, Notices& notices, Progress& progress)
+    {
+      const Decomposition all = decomposition_of(frame);
+      return is_public ? encode_grid(all, notices) : encode_voxels(all, progress);
+    },
+    format);
 }
 
 struct Style
