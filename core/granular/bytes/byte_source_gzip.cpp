@@ -1,25 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gzip, RFC 1952. A library inflates; header and trailer are read here, since none checks them in what is inflated from the
-// middle on.
+// gzip, RFC 1952. zlib reads headers, and a library inflates; trailers are read here, since none checks them in what is inflated
+// from the middle on.
 #include "granular/bytes/byte_source_unpack.h"
 
 #include "granular/bytes/inflate.h"
 #include "granular/common/error.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#define ZLIB_CONST
+#include <zlib.h>
+
 namespace granular
 {
 namespace
 {
 constexpr std::size_t window_bytes = std::size_t{ 1 } << 15;
+
+/// Returns a number as users know sums: 0x and hexadecimal digits.
+std::string hexadecimal(std::uint32_t value)
+{
+  std::array<char, 8> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
+  return "0x" + std::string(digits.data(), end);
+}
+
+struct EndInflate
+{
+  void operator()(z_stream* stream) const noexcept { inflateEnd(stream); }
+};
+
+/// Passes over the header of a member. Returns false if the file ends within it. Throws FormatError.
+bool pass_header(PackedInput& in)
+{
+  constexpr int gzip_format = 15 + 16; // of any window
+  constexpr int reserved = 0xe0;
+  constexpr int at_block = 128;
+  const Where where{ in.path(), 0, in.position() };
+  const std::int64_t start = in.position();
+  for (const int expected : { 0x1f, 0x8b, 0x08 })
+  {
+    const int byte = in.get();
+    if (byte >= 0 && byte != expected)
+    {
+      throw FormatError(
+        "expected the end of the gzip data or more of them, got other bytes", where);
+    }
+  }
+  const int flags = std::max(in.get(), 0);
+  if ((flags & reserved) != 0)
+  {
+    throw FormatError("expected a gzip header, got flags that are not defined (" +
+        hexadecimal(static_cast<std::uint32_t>(flags)) + ")",
+      where);
+  }
+  in.seek(start);
+  z_stream stream = {};
+  if (inflateInit2(&stream, gzip_format) != Z_OK)
+  {
+    throw std::bad_alloc();
+  }
+  const std::unique_ptr<z_stream, EndInflate> end(&stream);
+  Bytef none = 0;
+  stream.next_out = &none; // without room for any
+  while ((stream.data_type & at_block) == 0 && in.more())
+  {
+    stream.next_in = in.data();
+    stream.avail_in = static_cast<uInt>(in.size());
+    if (inflate(&stream, Z_BLOCK) == Z_DATA_ERROR)
+    {
+      throw FormatError("expected a gzip header that fits its CRC, got another", where);
+    }
+    in.skip(in.size() - stream.avail_in);
+  }
+  return (stream.data_type & at_block) != 0;
+}
 
 class GzipDecoder final : public Decoder
 {
@@ -153,7 +218,7 @@ bool GzipDecoder::read_header()
   }
   const std::int64_t start = in_.position() - 1;
   in_.seek(start);
-  if (!pass_gzip_header(in_, *inflate_))
+  if (!pass_header(in_))
   {
     in_.seek(start); // there may be more of it next time
     return this->end_of_file(true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared by byte_source_gzip.cpp, gzip_header.cpp and inflate_*.cpp; private to these files.
+// Shared by byte_source_gzip.cpp and inflate_*.cpp; private to these files.
 #ifndef granular_bytes_inflate_h
 #define granular_bytes_inflate_h
 
@@ -8,13 +8,10 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace granular
 {
-class PackedInput;
-
 /// Inflates deflate data (RFC 1951).
 class Inflate
 {
@@ -61,11 +58,5 @@ std::span<const Inflation> inflations() noexcept;
 
 std::unique_ptr<Inflate> make_zlib_inflate();
 std::unique_ptr<Inflate> make_isal_inflate();
-
-/// Passes over the header of a gzip member (RFC 1952). Returns false if the file ends within it. Throws FormatError.
-bool pass_gzip_header(PackedInput& in, const Inflate& inflate);
-
-/// Returns a number as users know sums: 0x and hexadecimal digits.
-std::string hexadecimal(std::uint32_t value);
 }
 #endif
