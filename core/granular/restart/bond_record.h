@@ -71,14 +71,16 @@ ImageCounts unpack_image(std::int64_t image, int field_bits) noexcept;
 /// - 1 for 21.
 std::int64_t pack_image(const ImageCounts& counts, int field_bits);
 
-/// The bonds in the block of bond/gran, as a view.
+/// The bonds in the block of bond/gran, or of another style, as a view.
 struct BondBlock
 {
   std::int64_t bonds = 0;          ///< b
   std::int64_t history_values = 0; ///< n_h; 0: none are stored
-  const double* pairs = nullptr;   ///< b times type and partner, as values
+  const double* pairs = nullptr;   ///< b times type and partner
   const double* history = nullptr; ///< b times n_h
   std::size_t size = 0;            ///< doubles of the block, from its length word on
+  WholeNumbers form =
+    WholeNumbers::Values; ///< of types and partners; others than bond/gran have any
 };
 
 /// Views a block that begins at its length word. `length` is the length of the block: from its own word, or, for a record of

@@ -321,14 +321,14 @@ void BondCollector::collect(std::size_t block, const RecordBatch& batch, const R
       std::memcpy(
         to_points_ + 3 * row, rows.parts[i * rows.stride] + RecordSlots::x, sizeof(Vector3));
     }
-    const FoundBonds& found = rows.bonds[i];
-    const auto count = static_cast<std::size_t>(found.block.bonds);
+    const BondBlock& found = rows.bonds[i];
+    const auto count = static_cast<std::size_t>(found.bonds);
     try
     {
       for (std::size_t bond = 0; bond < count; ++bond)
       {
-        copies.types.push_back(to_int32(found.block.pairs[2 * bond], found.form, "a bond type"));
-        copies.partners.push_back(to_whole(found.block.pairs[2 * bond + 1], found.form));
+        copies.types.push_back(to_int32(found.pairs[2 * bond], found.form, "a bond type"));
+        copies.partners.push_back(to_whole(found.pairs[2 * bond + 1], found.form));
       }
     }
     catch (const FormatError& error)
@@ -336,9 +336,9 @@ void BondCollector::collect(std::size_t block, const RecordBatch& batch, const R
       refuse_record(
         batch, row - static_cast<std::size_t>(batch.first_row), error.text() + " for a bond");
     }
-    if (found.block.history_values > 0)
+    if (found.history_values > 0)
     {
-      history = std::copy_n(found.block.history, count * history_values_, history);
+      history = std::copy_n(found.history, count * history_values_, history);
     }
     copies.begins.push_back(static_cast<std::int64_t>(copies.size()));
   }

@@ -34,7 +34,7 @@ struct RecordRows
   std::array<std::int32_t, most> masks = {};
   std::array<ImageCounts, most> images = {};
   std::array<std::int64_t, most> molecules = {};
-  std::array<FoundBonds, most> bonds = {};
+  std::array<BondBlock, most> bonds = {};
 
   /// Finds the fields of at most end - begin records of a batch. Throws FormatError with the record.
   void load(const RecordPlan& plan, const RecordBatch& batch, std::size_t begin, std::size_t end);

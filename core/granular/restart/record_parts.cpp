@@ -79,12 +79,12 @@ std::size_t measure_lists(std::span<const double> block, const StyleLayout& styl
 }
 
 /// The bonds of a list.
-FoundBonds look_at_list(std::span<const double> block, const StyleLayout& style)
+BondBlock look_at_list(std::span<const double> block, const StyleLayout& style)
 {
-  FoundBonds bonds;
+  BondBlock bonds;
   bonds.form = whole_numbers_of(block);
-  bonds.block.bonds = to_whole(block[style.values], bonds.form);
-  bonds.block.pairs = block.data() + style.values + 1;
+  bonds.bonds = to_whole(block[style.values], bonds.form);
+  bonds.pairs = block.data() + style.values + 1;
   return bonds;
 }
 }
@@ -148,7 +148,7 @@ std::size_t RecordPlan::length_of_part(
 /// Returns the end of the values that a style has in a part, and its bonds if they are those that are read. may_have_more: other parts
 /// may be behind it.
 std::size_t RecordPlan::measure_style(
-  std::span<const double> block, std::size_t part, bool may_have_more, FoundBonds& bonds) const
+  std::span<const double> block, std::size_t part, bool may_have_more, BondBlock& bonds) const
 {
   const StyleLayout* const style = parts_[part].style;
   const bool has_bonds = part == bonds_;
@@ -158,8 +158,8 @@ std::size_t RecordPlan::measure_style(
   }
   if (style->history)
   {
-    bonds = { look_at_bonds(block, may_have_more, history_values_, parts_[part].most_bonds) };
-    return bonds.block.size;
+    bonds = look_at_bonds(block, may_have_more, history_values_, parts_[part].most_bonds);
+    return bonds.size;
   }
   const std::size_t end = measure_lists(block, *style);
   if (has_bonds)
@@ -170,14 +170,14 @@ std::size_t RecordPlan::measure_style(
 }
 
 /// Returns the end of the first part: its length is that of the whole record.
-std::size_t RecordPlan::end_of_first(std::span<const double> record, FoundBonds& bonds) const
+std::size_t RecordPlan::end_of_first(std::span<const double> record, BondBlock& bonds) const
 {
   return parts_.front().searched ? search_next(record)
                                  : this->measure_style(record, 0, true, bonds);
 }
 
 std::size_t RecordPlan::end_of_part(
-  std::span<const double> record, std::size_t at, std::size_t part, FoundBonds& bonds) const
+  std::span<const double> record, std::size_t at, std::size_t part, BondBlock& bonds) const
 {
   const std::size_t length = this->length_of_part(record, at, part);
   const std::size_t end = this->measure_style(record.subspan(at, length), part, false, bonds);
@@ -190,7 +190,7 @@ std::size_t RecordPlan::end_of_part(
 }
 
 std::size_t RecordPlan::find_styles(
-  std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const
+  std::span<const double> record, std::span<const double*> parts, BondBlock& bonds) const
 {
   parts[0] = record.data();
   std::size_t at = this->end_of_first(record, bonds);
@@ -203,7 +203,7 @@ std::size_t RecordPlan::find_styles(
 }
 
 void RecordPlan::find_parts(
-  std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const
+  std::span<const double> record, std::span<const double*> parts, BondBlock& bonds) const
 {
   const std::size_t end = this->find_styles(record, parts, bonds);
   if (fix_lengths_.empty())

@@ -197,7 +197,7 @@ void RecordPlan::look_at(std::span<const double> record, const Where& where, Not
   else
   {
     this->look_at_history(record);
-    FoundBonds bonds;
+    BondBlock bonds;
     at = this->end_of_first(record, bonds);
   }
   for (std::size_t part = 1; part < parts_.size(); ++part)
@@ -221,7 +221,7 @@ void RecordPlan::look_at_end(std::span<const double> record, const Where& where,
     return;
   }
   end_known_ = true;
-  FoundBonds bonds;
+  BondBlock bonds;
   if (!this->fits(record, this->end_of_first(record, bonds)))
   {
     this->give_up(0, "is not known of this program", where, notices);
@@ -255,7 +255,7 @@ void RecordPlan::look_at_history(std::span<const double> record)
   std::size_t at = 0;
   for (std::size_t part = 0; part < bonds_; ++part)
   {
-    FoundBonds bonds;
+    BondBlock bonds;
     at += part == 0 ? this->end_of_first(record, bonds) : this->length_of_part(record, at, part);
   }
   const std::int64_t most = parts_[bonds_].most_bonds;
@@ -343,7 +343,7 @@ void RecordPlan::find_fixes(
     return;
   }
   std::vector<const double*> parts(parts_.size());
-  FoundBonds bonds;
+  BondBlock bonds;
   const std::size_t end = this->find_styles(record, parts, bonds);
   std::vector<std::size_t> lengths;
   const bool found = walk_fixes(record, end, known_fixes_,

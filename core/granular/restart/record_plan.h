@@ -108,13 +108,6 @@ struct RecordColumn
   std::size_t slot = 0;
 };
 
-/// The bonds of a particle, in a record.
-struct FoundBonds
-{
-  BondBlock block;
-  WholeNumbers form = WholeNumbers::Values; ///< of types and partners
-};
-
 /// The positions of all parts in the records of a file. A record is a part for each style, one after the other, each with its
 /// own length except the first, and a part for each fix. Source: pack_restart of AtomVecHybrid and the fixes of LIGGGHTS.
 class RecordPlan
@@ -139,7 +132,7 @@ public:
   /// Finds the parts of a record: where each begins, styles first, then fixes, null if these are wrong; and its bonds. Throws
   /// FormatError with the reason.
   void find_parts(
-    std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const;
+    std::span<const double> record, std::span<const double*> parts, BondBlock& bonds) const;
 
 private:
   struct Part
@@ -166,12 +159,12 @@ private:
   std::size_t length_of_part(
     std::span<const double> record, std::size_t at, std::size_t part) const;
   std::size_t measure_style(
-    std::span<const double> block, std::size_t part, bool may_have_more, FoundBonds& bonds) const;
-  std::size_t end_of_first(std::span<const double> record, FoundBonds& bonds) const;
+    std::span<const double> block, std::size_t part, bool may_have_more, BondBlock& bonds) const;
+  std::size_t end_of_first(std::span<const double> record, BondBlock& bonds) const;
   std::size_t end_of_part(
-    std::span<const double> record, std::size_t at, std::size_t part, FoundBonds& bonds) const;
+    std::span<const double> record, std::size_t at, std::size_t part, BondBlock& bonds) const;
   std::size_t find_styles(
-    std::span<const double> record, std::span<const double*> parts, FoundBonds& bonds) const;
+    std::span<const double> record, std::span<const double*> parts, BondBlock& bonds) const;
 
   std::vector<Part> parts_;
   std::vector<RecordColumn> columns_;
