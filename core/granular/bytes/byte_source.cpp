@@ -201,17 +201,22 @@ std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name
   return std::make_unique<MemorySource>(bytes, std::move(name));
 }
 
-std::string read_up_to(const ByteSource& source, std::int64_t end)
+std::string read_up_to(const ByteSource& source, std::int64_t end, Progress* progress)
 {
   constexpr std::size_t least = std::size_t{ 1 } << 14;
+  constexpr std::size_t most = std::size_t{ 1 } << 20; // between two reports
   std::string bytes;
   for (std::size_t wanted = 1, got = 1; wanted > 0 && got == wanted;)
   {
     const std::size_t from = bytes.size();
     const auto left = std::max(end - static_cast<std::int64_t>(from), std::int64_t{ 0 });
     // what end claims may not be there
-    wanted =
-      static_cast<std::size_t>(std::min(left, static_cast<std::int64_t>(std::max(from, least))));
+    wanted = static_cast<std::size_t>(
+      std::min(left, static_cast<std::int64_t>(std::clamp(from, least, most))));
+    if (progress)
+    {
+      progress->step(source.fraction(static_cast<std::int64_t>(from)));
+    }
     bytes.resize(from + wanted);
     got = source.read(static_cast<std::int64_t>(from), bytes.data() + from, wanted);
     bytes.resize(from + got);

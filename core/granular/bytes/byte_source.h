@@ -2,6 +2,8 @@
 #ifndef granular_bytes_byte_source_h
 #define granular_bytes_byte_source_h
 
+#include "granular/common/progress.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -90,8 +92,8 @@ std::unique_ptr<ByteSource> open_file(const std::string& path);
 /// Returns a source of the bytes of a string, which must outlive it.
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes, std::string name = "memory");
 
-/// Returns the bytes of a source before `end`, as many as there are.
-std::string read_up_to(const ByteSource& source, std::int64_t end);
+/// Returns the bytes of a source before `end`, as many as there are. Reports progress, unless it is null, and throws Cancelled.
+std::string read_up_to(const ByteSource& source, std::int64_t end, Progress* progress = nullptr);
 
 /// Returns a source of the first bytes of another one: a snapshot of a file while others append to it. The beginning is read
 /// here, once, and kept. Throws the errors of reading.

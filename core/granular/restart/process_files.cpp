@@ -24,13 +24,14 @@ constexpr std::int64_t count_bytes = 4;
 RestartChunk read_process_file(
   const std::string& path, const RestartLayout& layout, std::int64_t& records, Progress& progress)
 {
+  constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
   std::unique_ptr<ByteSource> source = open_file(path);
   const FileStamp stamp = source->stamp();
   source = unpack(std::move(source));
   std::string content;
   if (source->compressed())
   {
-    content = read_content(*source, progress);
+    content = read_up_to(*source, any, &progress);
     source = open_memory(content, path);
   }
   RestartBytes bytes(*source, layout.swapped);
@@ -43,7 +44,6 @@ RestartChunk read_process_file(
         std::to_string(bytes.size() - count_bytes) + " bytes",
       0);
   }
-  constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
   SearchBudget budget = { any, any };
   RecordWalker walker(*source, layout.swapped, layout.header, budget, progress);
   if (!walker.walk(count_bytes, doubles))
@@ -101,21 +101,6 @@ bool is_there(const std::string& path)
       static_cast<std::errc>(code.value()));
   }
   return found;
-}
-
-std::string read_content(const ByteSource& source, Progress& progress)
-{
-  constexpr std::size_t part = std::size_t{ 1 } << 20;
-  std::string content;
-  for (std::size_t there = part; there == part;)
-  {
-    const std::size_t before = content.size();
-    progress.step(source.fraction(static_cast<std::int64_t>(before)));
-    content.resize(before + part);
-    there = source.read(static_cast<std::int64_t>(before), content.data() + before, part);
-    content.resize(before + there);
-  }
-  return content;
 }
 
 void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress)

@@ -31,9 +31,6 @@ const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidat
 /// Returns true if a file, or anything else, of this name exists. Throws IoError if the system cannot tell.
 bool is_there(const std::string& path);
 
-/// Returns the contents of a packed source, in memory, with its path.
-std::string read_content(const ByteSource& source, Progress& progress);
-
 /// Looks at the files of all ranks: layout.chunks and layout.records. Each is a count and so many doubles, only records.
 /// Throws FormatError that names the file; IoError; Cancelled.
 void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress);

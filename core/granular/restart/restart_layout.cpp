@@ -6,6 +6,7 @@
 #include "granular/restart/restart_bytes.h"
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -294,7 +295,8 @@ RestartLayout read_layout(const ByteSource& source, Notices& notices, Progress& 
     RestartBytes first(source);
     read_header(first); // what is none is not unpacked
   }
-  const std::string content = read_content(source, progress);
+  const std::string content =
+    read_up_to(source, std::numeric_limits<std::int64_t>::max(), &progress);
   const std::unique_ptr<ByteSource> unpacked = open_memory(content, source.path());
   return read_layout(*unpacked, notices, progress);
 }
