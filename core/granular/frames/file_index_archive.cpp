@@ -4,7 +4,7 @@
 
 #include "granular/common/pass.h"
 
-#include <map>
+#include <algorithm>
 #include <utility>
 
 namespace granular
@@ -66,30 +66,25 @@ void visit_file(Archive& archive, File& file)
   archive.perhaps(file.points, [&](auto& points) { visit_points(archive, points); });
 }
 
-/// The kinds of the frames of all files, numbered.
-struct KindTable
-{
-  std::vector<const FrameKind*> kinds = {};
-  std::map<const FrameKind*, std::uint64_t> numbers = {};
-};
+using KindList = std::vector<const FrameKind*>;
 
-KindTable number_kinds(const std::vector<FileIndex>& files)
+KindList list_kinds(const std::vector<FileIndex>& files)
 {
-  KindTable table;
+  KindList kinds;
   for (const FileIndex& file : files)
   {
     for (const FrameEntry& frame : file.frames)
     {
-      if (table.numbers.try_emplace(frame.kind.get(), table.kinds.size()).second)
+      if (std::ranges::find(kinds, frame.kind.get()) == kinds.end()) // they are few
       {
-        table.kinds.push_back(frame.kind.get());
+        kinds.push_back(frame.kind.get());
       }
     }
   }
-  return table;
+  return kinds;
 }
 
-void write_kinds(ArchiveWriter& out, const std::vector<const FrameKind*>& kinds)
+void write_kinds(ArchiveWriter& out, const KindList& kinds)
 {
   out.list(kinds,
     [&](const FrameKind* kind)
@@ -189,8 +184,8 @@ void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
 std::string encode_files(const std::vector<FileIndex>& files)
 {
   ArchiveWriter out;
-  const KindTable table = number_kinds(files);
-  write_kinds(out, table.kinds);
+  const KindList kinds = list_kinds(files);
+  write_kinds(out, kinds);
   out.list(files,
     [&](const FileIndex& file)
     {
@@ -198,8 +193,9 @@ std::string encode_files(const std::vector<FileIndex>& files)
       out.list(file.frames,
         [&](const FrameEntry& frame)
         {
+          const auto kind = std::ranges::find(kinds, frame.kind.get()) - kinds.begin();
           out.number(FrameRecord{ frame.timestep, frame.rows, frame.offset, frame.end, frame.line,
-            frame.time, frame.shape, table.numbers.at(frame.kind.get()) });
+            frame.time, frame.shape, static_cast<std::uint64_t>(kind) });
         });
     });
   return std::move(out.bytes);

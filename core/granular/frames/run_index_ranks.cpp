@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One index for all ranks.
-#include "granular/common/archive.h"
 #include "granular/common/hash.h"
+#include "granular/common/pass.h"
 #include "granular/frames/file_index_archive.h"
 #include "granular/frames/frame_order.h"
 #include "granular/frames/run_index.h"
@@ -17,21 +17,6 @@ namespace granular
 {
 namespace
 {
-std::string pack(const std::vector<std::string>& names)
-{
-  ArchiveWriter out;
-  out.list(names, [&](const std::string& name) { out.text(name); });
-  return std::move(out.bytes);
-}
-
-std::vector<std::string> unpack_names(std::string_view bytes)
-{
-  ArchiveReader in(bytes);
-  std::vector<std::string> names;
-  in.list(names, [&](std::string& name) { in.text(name); });
-  return names;
-}
-
 /// Returns true if all that is known of a file can be sent.
 bool may_be_sent(const FileIndex& file)
 {
@@ -134,12 +119,17 @@ void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<st
           {
             names = index.unknown_files(files);
           }
-          std::string bytes = names.size() > 1 ? pack(names) : ""; // one is nothing to share
+          ArchiveWriter out;
+          pass(out, names);
+          std::string bytes =
+            names.size() > 1 ? std::move(out.bytes) : ""; // one is nothing to share
           ranks.broadcast(bytes, 0);
           if (!bytes.empty())
           {
+            ArchiveReader in(bytes);
+            pass(in, names);
             parts.set_part(0, 0.9);
-            of_ranks = look_together(unpack_names(bytes), options, index.kinds(), ranks, parts);
+            of_ranks = look_together(names, options, index.kinds(), ranks, parts);
             parts.set_part(0.9, 1);
           }
         }
