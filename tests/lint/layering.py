@@ -37,7 +37,7 @@ STANDARD = set("""
 _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM, r"core/granular/bytes/((byte_(source(_\w+)?|sink)|locked_file)\.cpp|system_calls\.h)"),
-    (r"(fnmatch|glob)\.h", r"core/granular/bytes/find_files\.cpp"),
+    (r"glob\.h", r"core/granular/bytes/find_files\.cpp"),
     (r"zlib\.h", r"core/granular/bytes/(byte_source_gzip|compression|inflate_zlib)\.cpp"),
     (r"isa-l/\w+\.h", r"core/granular/bytes/inflate_isal\.cpp"),
     (r"(zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source_zstd|compression)\.cpp"),

@@ -9,7 +9,6 @@
 #include <set>
 #include <system_error>
 
-#include <fnmatch.h>
 #include <glob.h>
 
 namespace granular
@@ -76,6 +75,21 @@ std::size_t set_length(std::string_view pattern) noexcept
   // a bracket that comes first is a member of the set
   const std::size_t end = pattern.find(']', 2 + negation);
   return end == std::string_view::npos ? 0 : end + 1;
+}
+
+bool is_in_set(std::string_view set, char c) noexcept
+{
+  set = set.substr(1, set.size() - 2);
+  const bool negated = set[0] == '!';
+  set.remove_prefix(negated ? 1 : 0);
+  bool found = false;
+  for (std::size_t i = 0; i < set.size(); ++i)
+  {
+    const bool range = i + 2 < set.size() && set[i + 1] == '-';
+    found = found || (range ? set[i] <= c && c <= set[i + 2] : set[i] == c);
+    i += range ? 2 : 0;
+  }
+  return found != negated;
 }
 
 bool is_file(const std::string& path)
@@ -159,24 +173,6 @@ bool is_fitting_file(const std::string& name)
   return fs::is_regular_file(status);
 }
 
-/// Returns true if a name has a number, with or without decimals, for each `*` of a pattern.
-bool has_numbers(const std::string& name, std::string_view pattern)
-{
-  std::string extended; // pattern of the shell
-  while (!pattern.empty())
-  {
-    const std::string_view part = pattern.substr(0, std::max<std::size_t>(set_length(pattern), 1));
-    const std::string_view meaning = part == "*" ? "+([0-9])?(.+([0-9]))"
-      : part == "%"                              ? "*"
-      : part == "("                              ? "[(]"
-      : part == "["                              ? "[[]" // that nothing ends
-                                                 : part;
-    extended += meaning;
-    pattern.remove_prefix(part.size());
-  }
-  return ::fnmatch(extended.c_str(), name.c_str(), FNM_NOESCAPE | FNM_EXTMATCH) == 0;
-}
-
 /// Appends the files that a pattern of the shell fits.
 void add_files(const std::string& pattern, std::vector<std::string>& names)
 {
@@ -194,6 +190,50 @@ void add_files(const std::string& pattern, std::vector<std::string>& names)
     }
   }
 }
+}
+
+bool has_numbers(std::string_view name, std::string_view pattern)
+{
+  if (pattern.empty())
+  {
+    return name.empty();
+  }
+  const char sign = pattern[0];
+  if (sign == '*')
+  {
+    // all ends of a number that begins here
+    const std::size_t whole = skip_digits(name, 0);
+    const bool has_decimals =
+      whole > 0 && whole + 1 < name.size() && name[whole] == '.' && is_digit(name[whole + 1]);
+    const std::size_t most = has_decimals ? skip_digits(name, whole + 1) : whole;
+    for (std::size_t end = most; end >= 1; --end)
+    {
+      if (is_digit(name[end - 1]) && has_numbers(name.substr(end), pattern.substr(1)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  if (sign == '%')
+  {
+    for (std::size_t end = 0; end <= name.size(); ++end)
+    {
+      if (has_numbers(name.substr(end), pattern.substr(1)))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  if (name.empty())
+  {
+    return false;
+  }
+  const std::size_t set = set_length(pattern);
+  const bool fits =
+    set > 0 ? is_in_set(pattern.substr(0, set), name[0]) : sign == '?' || sign == name[0];
+  return fits && has_numbers(name.substr(1), pattern.substr(std::max<std::size_t>(set, 1)));
 }
 
 std::vector<std::string> find_files(const std::vector<std::string>& patterns)

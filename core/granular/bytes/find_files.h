@@ -3,6 +3,7 @@
 #define granular_bytes_find_files_h
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace granular
@@ -16,5 +17,8 @@ namespace granular
 /// are left out. The name of a file that there is stands for this file alone, and so do the names of folders that there are.
 /// Throws IoError if a pattern fits no file, or names something else than a file, or a folder that cannot be listed.
 std::vector<std::string> find_files(const std::vector<std::string>& patterns);
+
+/// Returns true if a name has a number, with or without decimals, for each `*` of a pattern.
+bool has_numbers(std::string_view name, std::string_view pattern);
 }
 #endif
