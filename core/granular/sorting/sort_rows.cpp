@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/sorting/sort_rows.h"
 
+#include "granular/common/shares.h"
 #include "granular/parallel/gather.h"
-#include "granular/sorting/exchange_rows.h"
+#include "granular/parallel/trade.h"
+#include "granular/sorting/find_ids_at.h"
 #include "granular/sorting/row_order.h"
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <functional>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -120,6 +126,46 @@ std::span<const std::int64_t> ids_in(const Block& block) noexcept
   return { static_cast<const std::int64_t*>(block.data()), block.bytes() / sizeof(std::int64_t) };
 }
 
+/// Returns the numbers of the sorted ids of this rank that go to each rank.
+std::vector<std::int64_t> count_parts(
+  std::int64_t rows, std::span<const std::int64_t> sorted, Communicator& ranks)
+{
+  const auto size = static_cast<std::size_t>(ranks.size());
+  std::vector<std::int64_t> places(size);
+  std::vector<std::int64_t> begins(size);
+  std::vector<std::int64_t> equal(size);
+  for (int rank = 0; rank < ranks.size(); ++rank)
+  {
+    places[static_cast<std::size_t>(rank)] = begin_of_part(rows, rank, ranks.size());
+  }
+  const std::vector<std::int64_t> cuts = find_ids_at(places, sorted, ranks);
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), cuts[i]);
+    begins[i] = first - sorted.begin();
+    equal[i] = last - first;
+  }
+  std::vector<std::int64_t> before = begins;
+  ranks.sum(before);
+
+  // the cut at which its part begins is drawn by each rank
+  const auto own = static_cast<std::size_t>(ranks.rank());
+  std::int64_t left = places[own] - before[own];
+  std::vector<std::int64_t> shares = swap_numbers(equal, ranks);
+  for (std::int64_t& share : shares)
+  {
+    share = std::min(share, left);
+    left -= share;
+  }
+  shares = swap_numbers(shares, ranks);
+  std::transform(begins.begin(), begins.end(), shares.begin(), begins.begin(), std::plus<>());
+
+  std::vector<std::int64_t> counts(begins.begin() + 1, begins.end());
+  counts.push_back(static_cast<std::int64_t>(sorted.size()));
+  std::transform(counts.begin(), counts.end(), begins.begin(), counts.begin(), std::minus<>());
+  return counts;
+}
+
 /// Collective.
 void sort_together(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor)
@@ -148,18 +194,30 @@ void sort_together(DumpFrame& frame, const Block& ids, Communicator& ranks, Noti
   std::copy_n(numbers, frame.rows, static_cast<std::int64_t*>(sorted.data()));
   const RowOrder leave(ids_in(sorted));
   leave.apply(sorted, id_width, executor);
-  const RowExchange rows(all.rows, ids_in(sorted), ranks);
-  const RowOrder stay;
-  rows.move(sorted, id_width, stay, stay, executor);
+  const std::vector<std::int64_t> out = count_parts(all.rows, ids_in(sorted), ranks);
+  const std::vector<std::int64_t> in = swap_numbers(out, ranks);
+  frame.rows = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
+  const auto trade_rows = [&](Block& block, std::size_t width)
+  {
+    Block came(static_cast<std::size_t>(frame.rows) * width, block.pool());
+    ranks.exchange(static_cast<const char*>(block.data()), to_bytes(out, width),
+      static_cast<char*>(came.data()), to_bytes(in, width));
+    block = std::move(came);
+  };
+  trade_rows(sorted, id_width);
   const RowOrder arrive(ids_in(sorted));
   sorted = Block();
-
-  rows.move(frame.points, all.point_width, leave, arrive, executor);
+  const auto move_rows = [&](Block& block, std::size_t width)
+  {
+    leave.apply(block, width, executor);
+    trade_rows(block, width);
+    arrive.apply(block, width, executor);
+  };
+  move_rows(frame.points, all.point_width);
   for (DumpArray& array : frame.arrays)
   {
-    rows.move(array.block, row_width(array), leave, arrive, executor);
+    move_rows(array.block, row_width(array));
   }
-  frame.rows = rows.rows();
 }
 }
 
