@@ -70,10 +70,38 @@ struct PlacedParticle
 /// Number of each box vector that a periodic image is away.
 using PeriodicImage = std::array<std::int8_t, 3>;
 
-/// Returns the image in which a cell is that lies beyond the cells from 0 to count - 1.
-constexpr std::int64_t image_of(std::int64_t cell, std::int64_t count) noexcept
+/// Numbers of cells along each box vector, or the place of a cell.
+using CellCounts = std::array<std::int64_t, 3>;
+
+/// Calls visit(cell, image) for the cells from low to high, x fastest. Beyond the cells from 0 to counts - 1 are their images,
+/// and along axes that are not periodic nothing.
+template <class Visit>
+void for_cells(const CellCounts& low, const CellCounts& high, const CellCounts& counts,
+  const std::array<bool, 3>& periodic, const Visit& visit)
 {
-  return cell < 0 ? (cell + 1) / count - 1 : cell < count ? 0 : cell / count;
+  CellCounts cell;
+  PeriodicImage image;
+  const auto go_to = [&](std::size_t axis, std::int64_t at)
+  {
+    const std::int64_t count = counts[axis];
+    const std::int64_t away = at < 0 ? (at + 1) / count - 1 : at < count ? 0 : at / count;
+    image[axis] = static_cast<std::int8_t>(away);
+    cell[axis] = at - away * count;
+    return away == 0 || periodic[axis];
+  };
+  for (std::int64_t z = low[2]; z <= high[2]; ++z)
+  {
+    for (std::int64_t y = low[1]; go_to(2, z) && y <= high[1]; ++y)
+    {
+      for (std::int64_t x = low[0]; go_to(1, y) && x <= high[0]; ++x)
+      {
+        if (go_to(0, x))
+        {
+          visit(cell, image);
+        }
+      }
+    }
+  }
 }
 
 /// Returns a position moved by the box vectors of an image, or back by them with the sign -1.

@@ -70,12 +70,11 @@ Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double 
 }
 
 /// Returns the number of cells that fit along each axis; limited, so that the numbers of three axes multiply.
-std::array<std::int64_t, 3> Lattice::cells_for(
-  const BoxShape& box, double length, double radius) const noexcept
+CellCounts Lattice::cells_for(const BoxShape& box, double length, double radius) const noexcept
 {
   constexpr double most = 1 << 20;
   const double cell = cell_.length * length;
-  std::array<std::int64_t, 3> cells;
+  CellCounts cells;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double height = box.heights[axis];
@@ -114,7 +113,7 @@ void Lattice::lay_axis(const BoxShape& box, std::size_t axis, double length)
 /// Lays larger cells along the axes that have room for as many of them.
 void Lattice::spread(const BoxShape& box, double length, double radius)
 {
-  const std::array<std::int64_t, 3> larger = this->cells_for(box, length, radius);
+  const CellCounts larger = this->cells_for(box, length, radius);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (larger[axis] == cells_[axis])
@@ -191,7 +190,7 @@ std::int64_t Lattice::capacity() const noexcept
   return cells_[0] * cells_[1] * cells_[2] * static_cast<std::int64_t>(cell_.particles.size());
 }
 
-std::array<std::int64_t, 3> Lattice::place_of(std::int64_t row) const noexcept
+CellCounts Lattice::place_of(std::int64_t row) const noexcept
 {
   const std::int64_t cell = row / static_cast<std::int64_t>(cell_.particles.size());
   const std::int64_t line = cell / cells_[0];
@@ -205,7 +204,7 @@ const Vector3& Lattice::part_of(std::int64_t row) const noexcept
 
 Vector3 Lattice::point(std::int64_t row, const BoxShape& box) const noexcept
 {
-  const std::array<std::int64_t, 3> index = this->place_of(row);
+  const CellCounts index = this->place_of(row);
   const Vector3& part = this->part_of(row);
   Vector3 scaled;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -228,56 +227,40 @@ Vector3 Lattice::point(std::int64_t row, const BoxShape& box) const noexcept
 void Lattice::visit_near(
   std::int64_t row, const BoxShape& box, double distance, const VisitNear& visit) const
 {
-  const std::array<std::int64_t, 3> own = this->place_of(row);
+  const CellCounts own = this->place_of(row);
   const Vector3& from = this->part_of(row);
   const double most = distance * (1 + 1e-9) + 16 * box.rounding();
-  std::array<std::int64_t, 3> reach; // cells
+  CellCounts low;
+  CellCounts high;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    reach[axis] = static_cast<std::int64_t>(most / (step_[axis] * box.heights[axis]) + cell_.last);
+    const auto reach =
+      static_cast<std::int64_t>(most / (step_[axis] * box.heights[axis]) + cell_.last);
+    low[axis] = own[axis] - reach;
+    high[axis] = own[axis] + reach;
   }
-  const auto visit_cell = [&](const std::array<std::int64_t, 3>& cell)
-  {
-    std::array<std::int64_t, 3> place;
-    PeriodicImage image;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+  for_cells(low, high, cells_, box.periodic,
+    [&](const CellCounts& place, const PeriodicImage& image)
     {
-      const std::int64_t away = image_of(cell[axis], cells_[axis]);
-      if (away != 0 && !box.periodic[axis])
+      const std::int64_t first = ((place[2] * cells_[1] + place[1]) * cells_[0] + place[0]) *
+        static_cast<std::int64_t>(cell_.particles.size());
+      for (std::size_t i = 0; i < cell_.particles.size(); ++i)
       {
-        return;
+        Vector3 way;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          const std::int64_t cell = place[axis] + image[axis] * cells_[axis];
+          way[axis] =
+            (static_cast<double>(cell - own[axis]) + cell_.particles[i][axis] - from[axis]) *
+            step_[axis];
+        }
+        const Vector3 edge = box.edge(way);
+        if (dot(edge, edge) <= most * most)
+        {
+          visit(first + static_cast<std::int64_t>(i), image);
+        }
       }
-      image[axis] = static_cast<std::int8_t>(away);
-      place[axis] = cell[axis] - away * cells_[axis];
-    }
-    const std::int64_t first = ((place[2] * cells_[1] + place[1]) * cells_[0] + place[0]) *
-      static_cast<std::int64_t>(cell_.particles.size());
-    for (std::size_t i = 0; i < cell_.particles.size(); ++i)
-    {
-      Vector3 way;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        way[axis] =
-          (static_cast<double>(cell[axis] - own[axis]) + cell_.particles[i][axis] - from[axis]) *
-          step_[axis];
-      }
-      const Vector3 edge = box.edge(way);
-      if (dot(edge, edge) <= most * most)
-      {
-        visit(first + static_cast<std::int64_t>(i), image);
-      }
-    }
-  };
-  for (std::int64_t z = own[2] - reach[2]; z <= own[2] + reach[2]; ++z)
-  {
-    for (std::int64_t y = own[1] - reach[1]; y <= own[1] + reach[1]; ++y)
-    {
-      for (std::int64_t x = own[0] - reach[0]; x <= own[0] + reach[0]; ++x)
-      {
-        visit_cell({ x, y, z });
-      }
-    }
-  }
+    });
 }
 
 Vector3 Lattice::lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,

@@ -55,9 +55,8 @@ public:
     double radius, std::int64_t grains);
 
 private:
-  std::array<std::int64_t, 3> cells_for(
-    const BoxShape& box, double length, double radius) const noexcept;
-  std::array<std::int64_t, 3> place_of(std::int64_t row) const noexcept;
+  CellCounts cells_for(const BoxShape& box, double length, double radius) const noexcept;
+  CellCounts place_of(std::int64_t row) const noexcept;
   const Vector3& part_of(std::int64_t row) const noexcept;
   void lay_axis(const BoxShape& box, std::size_t axis, double length);
   void lay(const BoxShape& box, double length, double radius);
@@ -68,7 +67,7 @@ private:
   double nearest(const BoxShape& box, double enough) const noexcept;
 
   const LatticeCell& cell_;
-  std::array<std::int64_t, 3> cells_ = {};
+  CellCounts cells_ = {};
   Vector3 first_ = {}; ///< scaled coordinate of a grain at 0 of the first cell
   Vector3 step_ = {};  ///< from cell to cell
   double nearest_;

@@ -43,7 +43,7 @@ class Radii
 public:
   Radii(const RadiusChoice& choice, std::int64_t particles, std::uint64_t seed) noexcept;
 
-  const RadiusChoice& choice() const noexcept { return choice_; }
+  std::int64_t particles() const noexcept { return particles_; }
   double radius(std::int64_t row) const noexcept;
   std::int32_t type(std::int64_t row) const noexcept;
 

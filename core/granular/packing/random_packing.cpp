@@ -21,7 +21,7 @@ constexpr std::int64_t idle_tries = 20'000;
 
 /// Tries that are drawn together, so that memory is fetched for many of them at once.
 constexpr std::int64_t tries_a_group = 32;
-constexpr std::int64_t groups_a_report = 128;
+constexpr std::int64_t tries_a_report = 4096;
 
 /// Returns the distance of centres from a face in scaled coordinates; 0.5 where only a plane is left between two faces.
 double inset_of(const BoxShape& box, std::size_t axis, double distance)
@@ -37,20 +37,20 @@ RandomPacking::RandomPacking(
   : box_(box)
   , gap_(4 * box.rounding())
   , sizes_(radii.by_size())
+  , wanted_(radii.particles())
   , group_(tries_a_group)
 {
-  for (const SizeClass& size : sizes_)
-  {
-    wanted_ += size.particles;
-  }
-  tries_left_ = tries_at_least + tries_a_particle * wanted_;
+  std::int64_t tries_left = tries_at_least + tries_a_particle * wanted_;
+  std::int64_t most = 0; // particles that found places in one attempt
   PartialProgress never_back(progress);
   for (std::int64_t attempt = 0;
-       !this->place_all(RandomNumbers(seed, Stream::Places, attempt), never_back); ++attempt)
+       !this->place_all(RandomNumbers(seed, Stream::Places, attempt), tries_left, never_back);
+       ++attempt)
   {
-    if (tries_left_ <= 0)
+    most = std::max(most, std::ssize(particles_));
+    if (tries_left <= 0)
     {
-      this->give_up();
+      this->give_up(most);
     }
   }
   group_.clear();
@@ -58,33 +58,32 @@ RandomPacking::RandomPacking(
 }
 
 /// Returns false if a particle finds no place.
-bool RandomPacking::place_all(RandomNumbers numbers, Progress& progress)
+bool RandomPacking::place_all(RandomNumbers numbers, std::int64_t& tries_left, Progress& progress)
 {
   grids_.clear();
   first_.clear();
   particles_.clear();
   particles_.reserve(static_cast<std::size_t>(wanted_));
   std::size_t end = 0;
-  std::int64_t groups = 0;
+  std::int64_t tries = 0;
   for (std::uint32_t size = 0; size < sizes_.size(); ++size)
   {
     this->add_grid(sizes_[size]);
     end += static_cast<std::size_t>(sizes_[size].particles);
-    for (std::int64_t idle = 0; particles_.size() < end;)
+    for (std::int64_t idle = 0; particles_.size() < end; tries += tries_a_group)
     {
-      if (idle >= idle_tries || tries_left_ <= 0)
+      if (idle >= idle_tries || tries_left <= 0)
       {
         return false;
       }
-      if (groups++ % groups_a_report == 0)
+      if (tries % tries_a_report == 0)
       {
         progress.step(static_cast<double>(particles_.size()) / static_cast<double>(wanted_));
       }
       const std::size_t before = particles_.size();
       this->place_group(size, end, numbers);
-      tries_left_ -= tries_a_group;
+      tries_left -= tries_a_group;
       idle = particles_.size() > before ? 0 : idle + tries_a_group;
-      most_ = std::max(most_, static_cast<std::int64_t>(particles_.size()));
     }
   }
   return true;
@@ -93,46 +92,46 @@ bool RandomPacking::place_all(RandomNumbers numbers, Progress& progress)
 /// Tries places one after the other. Where particles may be in the way is fetched for the whole group before.
 void RandomPacking::place_group(std::uint32_t size, std::size_t end, RandomNumbers& numbers)
 {
-  const double radius = sizes_[size].radius;
-  for (Try& wanted : group_)
+  const double reach = sizes_[size].radius + gap_;
+  for (Try& each : group_)
   {
+    Vector3 scaled;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double inset = inset_of(box_, axis, radius + gap_);
-      wanted.scaled[axis] = inset + numbers.unit() * (1 - 2 * inset);
+      const double inset = inset_of(box_, axis, reach);
+      scaled[axis] = inset + numbers.unit() * (1 - 2 * inset);
     }
-    wanted.at = box_.edge(wanted.scaled);
-    wanted.near.clear();
-    this->each_near(wanted.scaled, radius + gap_, true,
-      [&](const NearCell& near)
+    each.at = box_.edge(scaled);
+    each.near.clear();
+    this->each_cell(each.at, reach, true,
+      [&](std::uint32_t cell, const PeriodicImage& image)
       {
-        __builtin_prefetch(first_.data() + near.cell);
-        wanted.near.push_back(near);
+        __builtin_prefetch(first_.data() + cell);
+        each.near.emplace_back(cell, image);
       });
   }
-  for (const Try& wanted : group_)
+  for (const Try& each : group_)
   {
-    for (const NearCell& near : wanted.near)
+    for (const auto& [cell, image] : each.near)
     {
-      const std::uint32_t first = first_[near.cell];
-      __builtin_prefetch(particles_.data() + (first == none ? 0 : first));
+      __builtin_prefetch(particles_.data() + (first_[cell] == none ? 0 : first_[cell]));
     }
   }
-  for (const Try& wanted : group_)
+  for (const Try& each : group_)
   {
-    if (particles_.size() < end && this->fits(wanted, radius))
+    if (particles_.size() < end && this->fits(each, sizes_[size].radius))
     {
-      this->add(wanted.scaled, { wanted.at, size, none });
+      this->add({ each.at, size, none });
     }
   }
 }
 
 bool RandomPacking::fits(const Try& wanted, double radius) const noexcept
 {
-  for (const NearCell& near : wanted.near)
+  for (const auto& [cell, image] : wanted.near)
   {
-    const Vector3 at = moved(wanted.at, near.image, box_, -1);
-    for (std::uint32_t i = first_[near.cell]; i != none; i = particles_[i].next)
+    const Vector3 at = moved(wanted.at, image, box_, -1);
+    for (std::uint32_t i = first_[cell]; i != none; i = particles_[i].next)
     {
       const Particle& other = particles_[i];
       const Vector3 way = { other.at[0] - at[0], other.at[1] - at[1], other.at[2] - at[2] };
@@ -172,80 +171,62 @@ void RandomPacking::add_grid(const SizeClass& size)
   grids_.push_back(grid);
 }
 
-std::size_t RandomPacking::cell_of(const Grid& grid, const Vector3& scaled) noexcept
+std::size_t RandomPacking::cell_of(const Grid& grid, const Vector3& at) const noexcept
 {
-  std::size_t cell = grid.begin;
+  const Vector3 scaled = box_.scaled(at);
+  std::int64_t cell = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::int64_t count = grid.counts[axis];
-    const auto at = static_cast<std::int64_t>(scaled[axis] * static_cast<double>(count));
-    cell +=
-      static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, count - 1) * grid.strides[axis]);
+    const auto along = static_cast<std::int64_t>(scaled[axis] * static_cast<double>(count));
+    cell += std::clamp<std::int64_t>(along, 0, count - 1) * grid.strides[axis];
   }
-  return cell;
+  return grid.begin + static_cast<std::size_t>(cell);
 }
 
-void RandomPacking::add(const Vector3& scaled, Particle particle)
+void RandomPacking::add(Particle particle)
 {
-  std::uint32_t& first = first_[cell_of(grids_[particle.size], scaled)];
+  std::uint32_t& first = first_[this->cell_of(grids_[particle.size], particle.at)];
   particle.next = std::exchange(first, static_cast<std::uint32_t>(particles_.size()));
   particles_.push_back(particle);
 }
 
 /// Visits the cells that may have centres nearer than a distance, each once per image. of_size: and the radius of the grid.
 template <class Visit>
-void RandomPacking::each_near(
-  const Vector3& scaled, double distance, bool of_size, const Visit& visit) const
+void RandomPacking::each_cell(
+  const Vector3& at, double distance, bool of_size, const Visit& visit) const
 {
+  const Vector3 scaled = box_.scaled(at);
   for (const Grid& grid : grids_)
   {
-    std::array<std::int64_t, 3> low;
-    std::array<std::int64_t, 3> high;
+    // more by the rounding of scaled coordinates
+    const double reach =
+      (distance + (of_size ? grid.radius : 0)) * (1 + 1e-9) + 16 * box_.rounding();
+    CellCounts low;
+    CellCounts high;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const auto count = static_cast<double>(grid.counts[axis]);
-      // more by the rounding of scaled coordinates
-      const double reach =
-        ((distance + (of_size ? grid.radius : 0)) * (1 + 1e-9) + 16 * box_.rounding()) /
-        box_.heights[axis];
-      low[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] - reach) * count));
-      high[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] + reach) * count));
-      if (!box_.periodic[axis])
-      {
-        low[axis] = std::max<std::int64_t>(low[axis], 0);
-        high[axis] = std::min(high[axis], grid.counts[axis] - 1);
-      }
+      const double part = reach / box_.heights[axis];
+      low[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] - part) * count));
+      high[axis] = static_cast<std::int64_t>(std::floor((scaled[axis] + part) * count));
     }
-    NearCell near = {};
-    const auto offset = [&](std::size_t axis, std::int64_t cell)
-    {
-      const std::int64_t count = grid.counts[axis];
-      const std::int64_t away = image_of(cell, count);
-      near.image[axis] = static_cast<std::int8_t>(away);
-      return static_cast<std::size_t>((cell - away * count) * grid.strides[axis]);
-    };
-    for (std::int64_t z = low[2]; z <= high[2]; ++z)
-    {
-      const std::size_t layer = grid.begin + offset(2, z);
-      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+    for_cells(low, high, grid.counts, box_.periodic,
+      [&](const CellCounts& cell, const PeriodicImage& image)
       {
-        const std::size_t line = layer + offset(1, y);
-        for (std::int64_t x = low[0]; x <= high[0]; ++x)
-        {
-          near.cell = static_cast<std::uint32_t>(line + offset(0, x));
-          visit(near);
-        }
-      }
-    }
+        const std::int64_t place =
+          cell[0] * grid.strides[0] + cell[1] * grid.strides[1] + cell[2] * grid.strides[2];
+        visit(static_cast<std::uint32_t>(grid.begin + static_cast<std::size_t>(place)), image);
+      });
   }
 }
 
 /// Sorts the particles by the cells of the largest ones. From then on they are found by their rows.
 void RandomPacking::number_by_cells()
 {
-  const auto cell = [this](const Particle& particle)
-  { return cell_of(grids_.front(), box_.scaled(particle.at)); };
   std::vector<std::uint32_t> rows(first_.size() + 1); // of the next particle of each cell
+  const auto cell = [this](const Particle& particle)
+  { return this->cell_of(grids_.front(), particle.at); };
   for (const Particle& particle : particles_)
   {
     ++rows[cell(particle) + 1];
@@ -260,7 +241,7 @@ void RandomPacking::number_by_cells()
   std::ranges::fill(first_, none);
   for (const Particle& particle : sorted)
   {
-    this->add(box_.scaled(particle.at), particle);
+    this->add(particle);
   }
 }
 
@@ -275,22 +256,22 @@ PlacedParticle RandomPacking::particle(std::int64_t row) const noexcept
 
 void RandomPacking::visit_near(std::int64_t row, double distance, const VisitNear& visit) const
 {
-  this->each_near(box_.scaled(particles_[static_cast<std::size_t>(row)].at), distance, false,
-    [&](const NearCell& near)
+  this->each_cell(particles_[static_cast<std::size_t>(row)].at, distance, false,
+    [&](std::uint32_t cell, const PeriodicImage& image)
     {
-      for (std::uint32_t i = first_[near.cell]; i != none; i = particles_[i].next)
+      for (std::uint32_t i = first_[cell]; i != none; i = particles_[i].next)
       {
-        visit(i, near.image);
+        visit(i, image);
       }
     });
 }
 
-void RandomPacking::give_up() const
+void RandomPacking::give_up(std::int64_t most) const
 {
   double asked = 0;
   double reached = 0;
   double radius = 0; // of those that found no place
-  std::int64_t placed = most_;
+  std::int64_t placed = most;
   for (const SizeClass& size : sizes_)
   {
     const double fraction = 4.0 / 3 * std::numbers::pi * std::pow(size.radius, 3) / box_.volume;
@@ -301,7 +282,7 @@ void RandomPacking::give_up() const
     radius = radius == 0 && found < size.particles ? size.radius : radius;
   }
   throw LimitError("no place was found for a random grain of radius " + std::to_string(radius) +
-    " when " + std::to_string(most_) + " of " + std::to_string(wanted_) +
+    " when " + std::to_string(most) + " of " + std::to_string(wanted_) +
     " had theirs: expected a solid fraction of at most about 0.3, and less where walls are near, "
     "got " +
     std::to_string(asked) + ", of which " + std::to_string(reached) + " was reached");

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -45,45 +46,36 @@ private:
   struct Grid
   {
     double radius;
-    std::size_t begin;                       ///< among the cells of all grids
-    std::array<std::int64_t, 3> counts = {}; ///< along each box vector
-    std::array<std::int64_t, 3> strides = {};
-  };
-
-  struct NearCell
-  {
-    std::uint32_t cell;
-    PeriodicImage image;
+    std::size_t begin;      ///< among the cells of all grids
+    CellCounts counts = {}; ///< along each box vector
+    CellCounts strides = {};
   };
 
   struct Try
   {
-    Vector3 scaled;
     Vector3 at;
-    std::vector<NearCell> near;
+    std::vector<std::pair<std::uint32_t, PeriodicImage>> near; ///< cells
   };
 
-  bool place_all(RandomNumbers numbers, Progress& progress);
+  bool place_all(RandomNumbers numbers, std::int64_t& tries_left, Progress& progress);
   void place_group(std::uint32_t size, std::size_t end, RandomNumbers& numbers);
   bool fits(const Try& wanted, double radius) const noexcept;
   void add_grid(const SizeClass& size);
-  void add(const Vector3& scaled, Particle particle);
-  static std::size_t cell_of(const Grid& grid, const Vector3& scaled) noexcept;
+  void add(Particle particle);
+  std::size_t cell_of(const Grid& grid, const Vector3& at) const noexcept;
   template <class Visit>
-  void each_near(const Vector3& scaled, double distance, bool of_size, const Visit& visit) const;
+  void each_cell(const Vector3& at, double distance, bool of_size, const Visit& visit) const;
   void number_by_cells();
-  [[noreturn]] void give_up() const;
+  [[noreturn]] void give_up(std::int64_t most) const;
 
   const BoxShape& box_;
   double gap_; ///< between particles: rounding of their coordinates may take it
   std::vector<SizeClass> sizes_;
-  std::int64_t wanted_ = 0;     ///< particles
-  std::int64_t tries_left_ = 0; ///< in all attempts
+  std::int64_t wanted_; ///< particles
   std::vector<Try> group_;
   std::vector<Grid> grids_;
   std::vector<std::uint32_t> first_; ///< particle of each cell of all grids
   std::vector<Particle> particles_;
-  std::int64_t most_ = 0; ///< particles that found places in one attempt
 };
 }
 #endif
