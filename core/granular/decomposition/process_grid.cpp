@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace granular
 {
@@ -268,5 +270,72 @@ ProcessGrid make_process_grid(const GridRequest& request)
                                                  : told_cuts(lo, hi, request.cuts[axis], axis);
   }
   return grid;
+}
+
+std::optional<ProcessGrid> find_process_grid(
+  std::span<const Subdomain> subdomains, std::vector<std::int64_t>* order)
+{
+  using Slabs = std::map<std::pair<double, double>, std::int64_t>; // by their bounds; their places
+  std::array<Slabs, 3> slabs;
+  std::array<Slabs::iterator, 3> last = { slabs[0].end(), slabs[1].end(), slabs[2].end() };
+  std::vector<std::array<const std::int64_t*, 3>> found; // the places of each subdomain
+  found.reserve(subdomains.size());
+  for (const auto& [lo, hi, particles, rank] : subdomains)
+  {
+    auto& places = found.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (!(lo[axis] <= hi[axis]) || !std::isfinite(lo[axis]) || !std::isfinite(hi[axis]))
+      {
+        return std::nullopt;
+      }
+      const std::pair bounds(lo[axis], hi[axis]);
+      if (last[axis] == slabs[axis].end() || last[axis]->first != bounds)
+      {
+        last[axis] = slabs[axis].try_emplace(bounds).first;
+      }
+      places[axis] = &last[axis]->second;
+    }
+    if (slabs[0].size() * slabs[1].size() * slabs[2].size() > subdomains.size())
+    {
+      return std::nullopt;
+    }
+  }
+  ProcessGrid grid;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    std::vector<double>& cuts = grid.cuts[axis];
+    for (auto& [bounds, place] : slabs[axis])
+    {
+      if (cuts.empty())
+      {
+        cuts.push_back(bounds.first);
+      }
+      if (bounds.first != cuts.back())
+      {
+        return std::nullopt;
+      }
+      place = std::ssize(cuts) - 1;
+      cuts.push_back(bounds.second);
+    }
+  }
+  const auto [px, py, pz] = grid.counts();
+  std::vector<std::int64_t> all;
+  all.reserve(found.size());
+  std::vector<bool> is_taken(found.size());
+  for (const auto& [x, y, z] : found)
+  {
+    all.push_back((*x * py + *y) * pz + *z);
+    if (is_taken[static_cast<std::size_t>(all.back())])
+    {
+      return std::nullopt;
+    }
+    is_taken[static_cast<std::size_t>(all.back())] = true;
+  }
+  if (order)
+  {
+    *order = std::move(all);
+  }
+  return subdomains.empty() ? std::nullopt : std::optional(grid);
 }
 }
