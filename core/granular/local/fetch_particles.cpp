@@ -237,6 +237,19 @@ Ids load_ids(
   return array ? Ids(*array, frame.rows, executor, progress) : Ids();
 }
 
+std::vector<std::string> distinct_names(std::vector<std::string> names)
+{
+  std::vector<std::string> distinct;
+  for (std::string& name : names)
+  {
+    if (std::ranges::find(distinct, name) == distinct.end())
+    {
+      distinct.push_back(std::move(name));
+    }
+  }
+  return distinct;
+}
+
 ParticleValues view_particles(const FrameView& frame, std::span<const std::string> names,
   const Executor& executor, Progress& progress)
 {

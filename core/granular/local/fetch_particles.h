@@ -48,6 +48,9 @@ struct ParticleValues
     own; ///< what is in no memory of the frame's; stays where it is when this is moved
 };
 
+/// Returns each name once, in the order in which they first occur.
+std::vector<std::string> distinct_names(std::vector<std::string> names);
+
 /// Returns the values of a frame without copying where possible. Positions are computed if the points are scaled or
 /// unwrapped, or not contiguous doubles. Arrays that a frame without rows lacks have size 0. Throws Error if an array,
 /// the points, or the box of scaled points is missing, or if texts are requested; Cancelled; std::bad_alloc.

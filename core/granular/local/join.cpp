@@ -31,22 +31,6 @@ struct EndColumn
   double* difference = nullptr;
 };
 
-std::vector<std::string> distinct_names(const JoinRequest& request)
-{
-  std::vector<std::string> names;
-  for (const auto* const wanted : { &request.means, &request.differences })
-  {
-    for (const std::string& name : *wanted)
-    {
-      if (std::ranges::find(names, name) == names.end())
-      {
-        names.push_back(name);
-      }
-    }
-  }
-  return names;
-}
-
 /// Finds the places of the particles at both ends of each row. Returns how many rows lack one.
 std::size_t find_ends(const IdFinder& finder, Places id1, Places id2, std::int64_t* firsts,
   std::int64_t* seconds, const Executor& executor, Progress& progress)
@@ -222,7 +206,10 @@ JoinedLines join_lines(const FrameView& particles, std::span<const std::int64_t>
       parts.set_part(0, 0.1);
       const Ids ids = load_ids(particles, "particles", executor, parts);
       parts.set_part(0.1, 0.2);
-      ParticleValues values = view_particles(particles, distinct_names(request), executor, parts);
+      std::vector<std::string> names = request.means;
+      names.insert(names.end(), request.differences.begin(), request.differences.end());
+      names = distinct_names(std::move(names));
+      ParticleValues values = view_particles(particles, names, executor, parts);
       share_sizes(values, particles.rows, ranks);
       const bool alone = ranks.size() == 1;
       FetchedParticles fetched;

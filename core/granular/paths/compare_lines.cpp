@@ -9,91 +9,75 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <string>
 
 namespace granular
 {
 namespace
 {
-using Numbers = std::vector<std::int64_t>;
-
-/// The lower id, the higher id: equal for lines that are the same.
-using Key = std::array<std::int64_t, 2>;
-
-std::vector<Key> keys_of(const LineEnds& lines)
+/// A line where it is compared.
+struct Line
 {
-  if (lines.id2.size() != lines.id1.size())
+  std::array<std::int64_t, 2>
+    ids;                     ///< the lower one, the higher one: equal for lines that are the same
+  std::int64_t is_reference; ///< 0: of the current frame
+  std::int64_t place = 0;    ///< among the lines that this rank compares
+
+  auto operator<=>(const Line&) const = default;
+};
+
+void add_lines(const LineEnds& ends, bool is_reference, std::vector<Line>& lines)
+{
+  if (ends.id2.size() != ends.id1.size())
   {
     throw Error("expected as many ids of second ends as of first ends, " +
-      std::to_string(lines.id1.size()) + ", got " + std::to_string(lines.id2.size()));
+      std::to_string(ends.id1.size()) + ", got " + std::to_string(ends.id2.size()));
   }
-  std::vector<Key> keys(lines.id1.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
+  for (std::size_t i = 0; i < ends.id1.size(); ++i)
   {
-    const auto [low, high] = std::minmax(lines.id1[i], lines.id2[i]);
-    keys[i] = { low, high };
+    const auto [low, high] = std::minmax(ends.id1[i], ends.id2[i]);
+    lines.push_back({ { low, high }, is_reference ? 1 : 0 });
   }
-  return keys;
 }
 
-/// The rank that compares lines with this key.
-std::size_t keeper_of(const Key& key, std::size_t ranks) noexcept
+/// The rank that compares a line.
+std::size_t keeper_of(const Line& line, std::size_t ranks) noexcept
 {
   std::uint64_t hash = 0;
-  for (const std::int64_t number : key)
+  for (const std::int64_t id : line.ids)
   {
-    hash = hash_of_id(static_cast<std::int64_t>(hash * 31 + static_cast<std::uint64_t>(number)));
+    hash = hash_of_id(static_cast<std::int64_t>(hash * 31 + static_cast<std::uint64_t>(id)));
   }
   return (hash >> 32) % ranks;
 }
 
-/// The lines of a frame that this rank compares, by rank and row, and how their changes come back.
-class KeptLines
+/// Compares lines of both frames, which come by rank and row. Returns the change of each.
+std::vector<Change> find_changes(std::vector<Line> lines)
 {
-public:
-  /// Collective.
-  KeptLines(const LineEnds& lines, Communicator& ranks)
+  std::vector<Change> changes(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
   {
-    const auto size = static_cast<std::size_t>(ranks.size());
-    const std::vector<Key> keys = keys_of(lines);
-    sent_ =
-      sort_by_rank(keys.size(), size, [&](std::size_t i) { return keeper_of(keys[i], size); });
-    come_ = swap_numbers(sent_.counts, ranks);
-    keys_ = trade(pick(keys, sent_.places), sent_.counts, come_, ranks);
+    lines[i].place = static_cast<std::int64_t>(i);
   }
-
-  const Key& key(std::size_t place) const noexcept { return keys_[place]; }
-
-  /// Places in the order of the keys; those of equal keys in theirs.
-  std::vector<std::size_t> order() const
+  std::ranges::sort(lines);
+  for (auto first = lines.begin(); first != lines.end();)
   {
-    std::vector<std::size_t> places(keys_.size());
-    std::iota(places.begin(), places.end(), std::size_t{ 0 });
-    std::ranges::stable_sort(
-      places, {}, [&](std::size_t place) -> const Key& { return keys_[place]; });
-    return places;
-  }
-
-  /// Returns the changes of the lines of this rank, given those of the lines compared here. Collective.
-  std::vector<Change> send_back(const std::vector<Change>& changes, Communicator& ranks) const
-  {
-    const std::vector<Change> answers = trade(changes, come_, sent_.counts, ranks);
-    std::vector<Change> own(answers.size());
-    for (std::size_t i = 0; i < answers.size(); ++i)
+    const auto last =
+      std::find_if(first, lines.end(), [&](const Line& line) { return line.ids != first->ids; });
+    const auto reference =
+      std::find_if(first, last, [](const Line& line) { return line.is_reference != 0; });
+    const auto kept = std::min(reference - first, last - reference); // of each frame
+    for (auto line = first; line != last; ++line)
     {
-      own[static_cast<std::size_t>(sent_.places[i])] = answers[i];
+      const bool is_kept = line - (line < reference ? first : reference) < kept;
+      changes[static_cast<std::size_t>(line->place)] = is_kept ? Change::Kept
+        : line < reference                                     ? Change::New
+                                                               : Change::Lost;
     }
-    return own;
+    first = last;
   }
-
-  std::size_t size() const noexcept { return keys_.size(); }
-
-private:
-  ByRank sent_;
-  Numbers come_;
-  std::vector<Key> keys_;
-};
+  return changes;
+}
 }
 
 LineChanges compare_lines(const LineEnds& current, const LineEnds& reference, Communicator& ranks)
@@ -101,26 +85,23 @@ LineChanges compare_lines(const LineEnds& current, const LineEnds& reference, Co
   return do_together(ranks,
     [&]
     {
-      const KeptLines now(current, ranks);
-      const KeptLines before(reference, ranks);
-      LineChanges kept = { std::vector(now.size(), Change::New),
-        std::vector(before.size(), Change::Lost) };
-      const std::vector<std::size_t> places = before.order();
-      auto next = places.begin();
-      for (const std::size_t place : now.order())
+      std::vector<Line> lines;
+      add_lines(current, false, lines);
+      add_lines(reference, true, lines);
+      const auto size = static_cast<std::size_t>(ranks.size());
+      const ByRank sent =
+        sort_by_rank(lines.size(), size, [&](std::size_t i) { return keeper_of(lines[i], size); });
+      const std::vector<std::int64_t> come = swap_numbers(sent.counts, ranks);
+      const std::vector<Change> answers =
+        trade(find_changes(trade(pick(lines, sent.places), sent.counts, come, ranks)), come,
+          sent.counts, ranks);
+      std::vector<Change> changes(lines.size());
+      for (std::size_t i = 0; i < answers.size(); ++i)
       {
-        while (next != places.end() && before.key(*next) < now.key(place))
-        {
-          ++next;
-        }
-        if (next != places.end() && before.key(*next) == now.key(place))
-        {
-          kept.current[place] = Change::Kept;
-          kept.reference[*next++] = Change::Kept;
-        }
+        changes[static_cast<std::size_t>(sent.places[i])] = answers[i];
       }
-      return LineChanges{ now.send_back(kept.current, ranks),
-        before.send_back(kept.reference, ranks) };
+      const auto middle = changes.begin() + std::ssize(current.id1);
+      return LineChanges{ { changes.begin(), middle }, { middle, changes.end() } };
     });
 }
 }

@@ -3,7 +3,6 @@
 #define granular_paths_compare_lines_h
 
 #include "granular/parallel/communicator.h"
-#include "granular/paths/change.h"
 
 #include <cstdint>
 #include <span>
@@ -11,6 +10,14 @@
 
 namespace granular
 {
+/// The change of a particle or line from a reference frame to the current frame.
+enum class Change : std::int32_t
+{
+  Kept = 0, ///< in both frames
+  New = 1,  ///< in the current frame only
+  Lost = 2  ///< in the reference frame only
+};
+
 /// The particles that the lines of a rank connect: one value a line.
 struct LineEnds
 {

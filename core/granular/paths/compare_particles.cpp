@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -27,19 +28,6 @@ constexpr std::size_t rows_per_chunk = 32 * some;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Numbers = std::vector<std::int64_t>;
-
-std::vector<std::string> distinct_names(const std::vector<std::string>& names)
-{
-  std::vector<std::string> distinct;
-  for (const std::string& name : names)
-  {
-    if (std::ranges::find(distinct, name) == distinct.end())
-    {
-      distinct.push_back(name);
-    }
-  }
-  return distinct;
-}
 
 /// Points without the origin, which displacements add where it matters; of scaled points it is added first.
 FrameView as_shown(const FrameView& frame)
@@ -110,21 +98,26 @@ Vector3 origin_of(const FrameView& frame)
   return frame.coordinates == Coordinates::Scaled ? Vector3{} : frame.point_origin;
 }
 
-/// Finds displacements of particles from a reference frame to the current frame.
-class Displacements
+/// Compares the rows of a rank with the particles of the reference frame, whose values were fetched: they are doubles.
+class Comparer
 {
 public:
-  /// The boxes, and the origins that were subtracted from points that are not scaled, are those of the frames. unwrapped:
-  /// points and their images give the unwrapped positions; otherwise displacements are the shortest periodic images. See
-  /// compare_particles.
-  Displacements(const FrameView& current, const FrameView& reference, bool unwrapped)
+  /// The boxes, and the origins that were subtracted from points that are not scaled, are those of the frames. If
+  /// result.unwrapped, points and their images give the unwrapped positions; otherwise displacements are the shortest periodic
+  /// images. See compare_particles.
+  Comparer(const FrameView& current, const FrameView& reference, const Side& now,
+    const Side& before, ComparedParticles& result)
+    : now_(now)
+    , before_(before)
+    , ghosts_(current.ghosts)
+    , result_(result)
+    , vectors_{ current.header.box.vectors, reference.header.box.vectors }
   {
     if (origin_of(current) != origin_of(reference))
     {
       origins_ = { origin_of(current), origin_of(reference) };
     }
-    vectors_ = { current.header.box.vectors, reference.header.box.vectors };
-    if (!unwrapped)
+    if (!result.unwrapped)
     {
       shortest_.emplace(current.has_box ? current.header.box
           : reference.has_box           ? reference.header.box
@@ -133,8 +126,90 @@ public:
     }
   }
 
+  /// places: of the rows from first on, in the reference frame, or IdFinder::nowhere. Returns how many particles are far.
+  std::int64_t compare(std::span<const std::int64_t> places, std::size_t first) const
+  {
+    std::array<std::int64_t, some> all;
+    const std::span rows(all.data(), places.size());
+    std::iota(rows.begin(), rows.end(), static_cast<std::int64_t>(first));
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      result_.changes[first + i] = places[i] == IdFinder::nowhere ? Change::New : Change::Kept;
+    }
+    for (std::size_t which = 0; which < result_.differences.size(); ++which)
+    {
+      this->subtract(which, rows, places);
+    }
+    return this->displace(rows, places);
+  }
+
+private:
+  using Places = std::span<const std::int64_t>;
+
+  static double value_of(const ArrayView& array, int component, std::int64_t place) noexcept
+  {
+    const void* const values = array.components[static_cast<std::size_t>(component)];
+    return static_cast<const double*>(values)[place * array.step];
+  }
+
+  void subtract(std::size_t which, Places rows, Places places) const
+  {
+    std::array<double, some> now;
+    const DifferenceArray& array = result_.differences[which];
+    auto* const differences = static_cast<double*>(array.values.data());
+    for (int k = 0; k < array.size; ++k)
+    {
+      load_numbers(component_of(now_.values.arrays[which], k), rows, now.data());
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        differences[rows[i] * array.size + k] = places[i] == IdFinder::nowhere
+          ? none
+          : now[i] - value_of(before_.values.arrays[which], k, places[i]);
+      }
+    }
+  }
+
+  static CountedPoint point_of(const Side& side, std::int64_t place) noexcept
+  {
+    CountedPoint counted;
+    std::copy_n(side.values.points + place * side.values.point_step, 3, counted.point.begin());
+    return counted;
+  }
+
+  std::int64_t displace(Places rows, Places places) const
+  {
+    std::array<std::array<double, some>, 3> images = {};
+    for (std::size_t axis = 0; now_.has_images && axis < 3; ++axis)
+    {
+      load_numbers(
+        component_of(now_.values.arrays.back(), static_cast<int>(axis)), rows, images[axis].data());
+    }
+    std::int64_t far = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      Vector3 displacement = { none, none, none };
+      if (places[i] != IdFinder::nowhere)
+      {
+        CountedPoint now = point_of(now_, rows[i]);
+        now.images = { images[0][i], images[1][i], images[2][i] };
+        CountedPoint before = point_of(before_, places[i]);
+        for (int axis = 0; before_.has_images && axis < 3; ++axis)
+        {
+          before.images[static_cast<std::size_t>(axis)] =
+            value_of(before_.values.arrays.back(), axis, places[i]);
+        }
+        displacement = this->find(now, before);
+        const bool is_far = shortest_ && shortest_->is_far(displacement);
+        far += is_far && !FrameView::is_duplicate(ghosts_, rows[i]) ? 1 : 0;
+      }
+      std::ranges::copy(
+        displacement, static_cast<double*>(result_.displacements.data()) + 3 * rows[i]);
+    }
+    return far;
+  }
+
   /// Returns the displacement, rounded once.
-  Vector3 find(const CountedPoint& current, const CountedPoint& reference) const noexcept
+  Vector3 find(CountedPoint current, const CountedPoint& reference) const noexcept
   {
     const Vector3 displacement = this->subtract(current, reference);
     const BoxCounts counts = shortest_ ? shortest_->images.find(displacement) : BoxCounts{};
@@ -142,19 +217,10 @@ public:
     {
       return displacement;
     }
-    CountedPoint shortest = current;
-    std::ranges::transform(counts, shortest.images.begin(),
-      [](std::int64_t count) { return static_cast<double>(count); });
-    return this->subtract(shortest, reference);
+    std::ranges::copy(counts, current.images.begin());
+    return this->subtract(current, reference);
   }
 
-  /// Returns true if a shortest image is far: the particle may have moved by another image.
-  bool is_far(const Vector3& displacement) const noexcept
-  {
-    return shortest_ && shortest_->is_far(displacement);
-  }
-
-private:
   Vector3 subtract(const CountedPoint& current, const CountedPoint& reference) const noexcept
   {
     Vector3 result;
@@ -181,122 +247,14 @@ private:
     return result;
   }
 
+  const Side& now_;
+  const Side& before_;
+  const unsigned char* ghosts_; ///< of the current rows
+  ComparedParticles& result_;
   std::array<Vector3, 2> origins_ = {}; ///< added to the current points, and to those before
-  std::array<std::array<Twofold3, 3>, 2> vectors_ = {}; ///< of the boxes
+  std::array<std::array<Twofold3, 3>, 2> vectors_; ///< of the boxes
   std::optional<BoxImages>
     shortest_; ///< in which box the shortest is taken; of unwrapped points none
-};
-
-/// The places of some particles in both frames.
-struct Pairs
-{
-  std::array<std::int64_t, some> current;   ///< rows
-  std::array<std::int64_t, some> reference; ///< places among the values of the reference frame
-  std::size_t count = 0;
-
-  std::span<const std::int64_t> now() const { return { current.data(), count }; }
-  std::span<const std::int64_t> before() const { return { reference.data(), count }; }
-};
-
-/// Compares the rows of a rank, chunk by chunk.
-struct Comparer
-{
-  /// places: of the rows from first on, in the reference frame, or IdFinder::nowhere. Returns how many particles are far.
-  std::int64_t compare(
-    std::span<const std::int64_t> places, std::size_t first, const unsigned char* ghosts) const
-  {
-    Pairs pairs;
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const bool found = places[i] != IdFinder::nowhere;
-      result.changes[first + i] = found ? Change::Kept : Change::New;
-      if (found)
-      {
-        pairs.current[pairs.count] = static_cast<std::int64_t>(first + i);
-        pairs.reference[pairs.count++] = places[i];
-      }
-      else
-      {
-        this->leave_empty(first + i);
-      }
-    }
-    for (std::size_t k = 0; k < result.differences.size(); ++k)
-    {
-      this->subtract(k, pairs);
-    }
-    return this->displace(pairs, ghosts);
-  }
-
-  static double* numbers(const Block& block) { return static_cast<double*>(block.data()); }
-
-  void leave_empty(std::size_t row) const
-  {
-    std::fill_n(numbers(result.displacements) + 3 * row, 3, none);
-    for (const DifferenceArray& array : result.differences)
-    {
-      const auto size = static_cast<std::size_t>(array.size);
-      std::fill_n(numbers(array.values) + size * row, size, none);
-    }
-  }
-
-  void subtract(std::size_t which, const Pairs& pairs) const
-  {
-    std::array<double, some> now;
-    std::array<double, some> before;
-    const DifferenceArray& array = result.differences[which];
-    for (int k = 0; k < array.size; ++k)
-    {
-      load_numbers(component_of(current.values.arrays[which], k), pairs.now(), now.data());
-      load_numbers(component_of(reference.values.arrays[which], k), pairs.before(), before.data());
-      for (std::size_t i = 0; i < pairs.count; ++i)
-      {
-        numbers(array.values)[pairs.current[i] * array.size + k] = now[i] - before[i];
-      }
-    }
-  }
-
-  /// The counts of images of some particles, 0 where there are none.
-  static std::array<std::array<double, some>, 3> load_images(
-    const Side& side, std::span<const std::int64_t> rows)
-  {
-    std::array<std::array<double, some>, 3> images = {};
-    // a rank without particles may lack the array's components
-    const bool there = side.has_images && side.values.arrays.back().size() == 3;
-    for (int axis = 0; there && axis < 3; ++axis)
-    {
-      load_numbers(component_of(side.values.arrays.back(), axis), rows,
-        images[static_cast<std::size_t>(axis)].data());
-    }
-    return images;
-  }
-
-  static Vector3 point_of(const Side& side, std::int64_t row)
-  {
-    const double* const point = side.values.points + row * side.values.point_step;
-    return { point[0], point[1], point[2] };
-  }
-
-  std::int64_t displace(const Pairs& pairs, const unsigned char* ghosts) const
-  {
-    const auto now = load_images(current, pairs.now());
-    const auto before = load_images(reference, pairs.before());
-    std::int64_t far = 0;
-    for (std::size_t i = 0; i < pairs.count; ++i)
-    {
-      const std::int64_t row = pairs.current[i];
-      const Vector3 displacement = displacements.find(
-        { point_of(current, row), { now[0][i], now[1][i], now[2][i] } },
-        { point_of(reference, pairs.reference[i]), { before[0][i], before[1][i], before[2][i] } });
-      std::ranges::copy(displacement, numbers(result.displacements) + 3 * row);
-      far += displacements.is_far(displacement) && !FrameView::is_duplicate(ghosts, row) ? 1 : 0;
-    }
-    return far;
-  }
-
-  const Side& current;
-  const Side& reference;
-  const Displacements& displacements;
-  ComparedParticles& result;
 };
 
 void make_arrays(
@@ -368,8 +326,7 @@ ComparedParticles compare_particles(const FrameView& current, const FrameView& r
       before.values = std::move(fetched.values);
       const IdFinder finder(fetched.ids);
       make_arrays(now, names.size(), current.rows, result);
-      const Displacements displacements(current, reference, result.unwrapped);
-      const Comparer comparer = { now, before, displacements, result };
+      const Comparer comparer(current, reference, now, before, result);
       std::atomic<std::int64_t> far = 0;
       parts.set_part(0.4, 1);
       executor.for_each_stretch(
@@ -381,7 +338,7 @@ ComparedParticles compare_particles(const FrameView& current, const FrameView& r
           {
             const std::size_t count = std::min(some, first + rows - row);
             finder.find(ids.values().subspan(row, count), places.data());
-            far += comparer.compare({ places.data(), count }, row, current.ghosts);
+            far += comparer.compare({ places.data(), count }, row);
           }
         },
         parts);

@@ -6,7 +6,7 @@
 #include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
-#include "granular/paths/change.h"
+#include "granular/paths/compare_lines.h"
 
 #include <cstdint>
 #include <string>
