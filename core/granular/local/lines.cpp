@@ -90,11 +90,6 @@ private:
     return { points[3 * row], points[3 * row + 1], points[3 * row + 2] };
   }
 
-  static Vector3 difference(const Vector3& a, const Vector3& b) noexcept
-  {
-    return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-  }
-
   void count(std::size_t row, std::size_t end, Counts& chunk)
   {
     std::size_t more = 0;
@@ -103,7 +98,7 @@ private:
     {
       const Vector3 first = point_of(first_, row);
       const Vector3 second = point_of(second_, row);
-      const BoxCounts counts = images_.find(difference(second, first));
+      const BoxCounts counts = images_.find(minus(second, first));
       more += counts == BoxCounts{} ? 0 : splitter_.split(first, second, counts, parts) - 1;
     }
     chunk.more = more;
@@ -135,13 +130,12 @@ private:
     {
       const Vector3 first = point_of(first_, row);
       const Vector3 second = point_of(second_, row);
-      const Vector3 vector = difference(second, first);
+      const Vector3 vector = minus(second, first);
       const BoxCounts counts = images_.find(vector);
       std::size_t made = 1;
       if (counts == BoxCounts{})
       {
-        parts[0] = { difference(first, request_.point_origin),
-          difference(second, request_.point_origin) };
+        parts[0] = { minus(first, request_.point_origin), minus(second, request_.point_origin) };
         lengths[row] = length_of(vector);
       }
       else
@@ -149,7 +143,7 @@ private:
         made = this->splits() ? splitter_.split(first, second, counts, parts) : 1;
         if (!this->splits())
         {
-          parts[0] = { difference(first, request_.point_origin),
+          parts[0] = { minus(first, request_.point_origin),
             images_.moved(second, counts, request_.point_origin) };
         }
         lengths[row] = length_of(images_.moved(second, counts, first));
@@ -181,20 +175,14 @@ LineSplitter::LineSplitter(const Box& box, const MinimumImage& images, const Vec
   , images_(images)
   , point_origin_(point_origin)
 {
-  std::vector<Vector3> vectors;
-  std::vector<std::size_t> axes;
-  for (std::size_t i = 0; i < 3; ++i)
+  std::array<Vector3, 3> vectors;
+  std::array<bool, 3> chosen;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (has_length(box.vectors[i]))
-    {
-      vectors.push_back(values_of(box.vectors[i]));
-      axes.push_back(i);
-    }
+    vectors[axis] = values_of(box.vectors[axis]);
+    chosen[axis] = has_length(box.vectors[axis]);
   }
-  for (std::size_t i = 0; i < axes.size(); ++i)
-  {
-    normals_[axes[i]] = own_part(vectors, i);
-  }
+  normals_ = own_parts(vectors, chosen);
 }
 
 /// whole: from first to the image of second.

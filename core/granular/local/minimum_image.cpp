@@ -168,19 +168,22 @@ void MinimumImage::reduce() noexcept
 /// a box of the reduced vectors' lengths is long, and at most two of each of them.
 void MinimumImage::make_steps()
 {
-  std::vector<Vector3> vectors;
+  std::array<Vector3, 3> vectors = {};
+  std::array<bool, 3> chosen = {};
   double farthest = 0;
   double shortest = reduced_.empty() ? 0 : reduced_.front().square;
-  for (const Sum& one : reduced_)
+  for (std::size_t i = 0; i < reduced_.size(); ++i)
   {
-    vectors.push_back(one.vector);
-    farthest += one.square;
-    shortest = std::min(shortest, one.square);
+    vectors[i] = reduced_[i].vector;
+    chosen[i] = true;
+    farthest += reduced_[i].square;
+    shortest = std::min(shortest, reduced_[i].square);
   }
-  for (std::size_t i = 0; i < vectors.size(); ++i)
+  const std::array<Vector3, 3> parts = own_parts(vectors, chosen);
+  for (std::size_t i = 0; i < reduced_.size(); ++i)
   {
     // reduced vectors stand out by more than half their length
-    const Vector3 own = own_part(vectors, i);
+    const Vector3& own = parts[i];
     const double square = dot(own, own);
     if (!(square > reduced_[i].square / 4))
     {
@@ -253,53 +256,39 @@ BoxCounts MinimumImage::find_tilted(const Vector3& vector) const noexcept
   {
     return {};
   }
-  const Vector3 rest = this->moved(vector, to_integers(counts), {});
+  Vector3 rest = this->moved(vector, to_integers(counts), {});
   if (dot(rest, rest) <= surely_shortest_)
   {
     return to_integers(counts);
   }
   const double slack = rounding * std::sqrt(square);
-  while (this->descend(vector, slack, counts))
+  for (;;)
   {
-  }
-  return to_integers(this->smallest_of_ties(vector, slack, counts));
-}
-
-/// Goes to the neighbour that is the shortest, if it is shorter than what rounding may do.
-bool MinimumImage::descend(const Vector3& vector, double slack, Vector3& counts) const noexcept
-{
-  const Vector3 rest = this->moved(vector, to_integers(counts), {});
-  const Sum* best = nullptr;
-  double least = 0;
-  for (const Sum& step : steps_)
-  {
-    const double longer = step.square + 2 * dot(step.vector, rest);
-    if (longer < least && longer < -2 * slack * std::sqrt(step.square))
+    const Sum* best = nullptr; // the shortest neighbour, if it is shorter by more than rounding
+    double least = 0;
+    Vector3 smallest = counts; // of the images that are as short
+    for (const Sum& step : steps_)
     {
-      best = &step;
-      least = longer;
+      const double longer = step.square + 2 * dot(step.vector, rest);
+      const double tie = 2 * slack * std::sqrt(step.square);
+      if (longer < least && longer < -tie)
+      {
+        best = &step;
+        least = longer;
+      }
+      else if (const Vector3 other = sum(counts, step.counts);
+               longer <= tie && is_smaller(other, smallest))
+      {
+        smallest = other;
+      }
     }
-  }
-  counts = best ? sum(counts, best->counts) : counts;
-  return best != nullptr;
-}
-
-/// Returns the smallest of the images that are as short as the shortest one.
-Vector3 MinimumImage::smallest_of_ties(
-  const Vector3& vector, double slack, const Vector3& counts) const noexcept
-{
-  const Vector3 rest = this->moved(vector, to_integers(counts), {});
-  Vector3 smallest = counts;
-  for (const Sum& step : steps_)
-  {
-    const double longer = step.square + 2 * dot(step.vector, rest);
-    const Vector3 other = sum(counts, step.counts);
-    if (longer <= 2 * slack * std::sqrt(step.square) && is_smaller(other, smallest))
+    if (!best)
     {
-      smallest = other;
+      return to_integers(smallest);
     }
+    counts = sum(counts, best->counts);
+    rest = this->moved(vector, to_integers(counts), {});
   }
-  return smallest;
 }
 
 bool has_length(const Twofold3& vector) noexcept
@@ -308,52 +297,51 @@ bool has_length(const Twofold3& vector) noexcept
   return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && (x != 0 || y != 0 || z != 0);
 }
 
-Vector3 own_part(std::span<const Vector3> vectors, std::size_t which) noexcept
+std::array<Vector3, 3> own_parts(
+  const std::array<Vector3, 3>& vectors, const std::array<bool, 3>& chosen) noexcept
 {
-  Vector3 own = vectors[which];
-  std::array<Vector3, 2> others;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < vectors.size(); ++i)
+  std::array<Vector3, 3> parts = {};
+  for (std::size_t which = 0; which < 3; ++which)
   {
-    if (i != which)
+    Vector3 own = vectors[which];
+    std::array<Vector3, 2> others;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i)
     {
-      others[count] = vectors[i];
-      if (count == 1)
+      if (i != which && chosen[i])
       {
-        remove_part(others[1], others[0]);
+        others[count] = vectors[i];
+        if (count == 1)
+        {
+          remove_part(others[1], others[0]);
+        }
+        remove_part(own, others[count++]);
       }
-      remove_part(own, others[count++]);
+    }
+    if (chosen[which] && dot(own, own) > 0x1p-80 * dot(vectors[which], vectors[which]))
+    {
+      parts[which] = own;
     }
   }
-  const bool is_one = dot(own, own) > 0x1p-80 * dot(vectors[which], vectors[which]);
-  return is_one ? own : Vector3{};
-}
-
-Vector3 dual_of(std::span<const Vector3> vectors, std::size_t which) noexcept
-{
-  const Vector3 own = own_part(vectors, which);
-  const double square = dot(own, own);
-  return square > 0 ? Vector3{ own[0] / square, own[1] / square, own[2] / square } : Vector3{};
+  return parts;
 }
 
 std::array<Vector3, 3> periodic_duals(
   const Box& box, const std::array<Vector3, 3>& vectors) noexcept
 {
-  std::array<Vector3, 3> periodic;
-  std::array<std::size_t, 3> axes = {};
-  std::size_t count = 0;
+  std::array<bool, 3> periodic;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (is_periodic(box, axis) && has_length(box.vectors[axis]))
-    {
-      periodic[count] = vectors[axis];
-      axes[count++] = axis;
-    }
+    periodic[axis] = is_periodic(box, axis) && has_length(box.vectors[axis]);
   }
-  std::array<Vector3, 3> duals = {};
-  for (std::size_t i = 0; i < count; ++i)
+  std::array<Vector3, 3> duals = own_parts(vectors, periodic);
+  for (Vector3& dual : duals)
   {
-    duals[axes[i]] = dual_of({ periodic.data(), count }, i);
+    const double square = dot(dual, dual);
+    if (square > 0)
+    {
+      dual = { dual[0] / square, dual[1] / square, dual[2] / square };
+    }
   }
   return duals;
 }

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace granular
@@ -16,21 +15,25 @@ namespace granular
 /// Returns true if a box vector is finite and not zero.
 bool has_length(const Twofold3& vector) noexcept;
 
-/// Returns the part of one of at most three vectors that is perpendicular to the other vectors: its product with any
-/// vector counts how many times the chosen vector is in it. Zero if there is no such part, to twelve digits.
-Vector3 own_part(std::span<const Vector3> vectors, std::size_t which) noexcept;
+/// Returns for some of three vectors the part that is perpendicular to the others of them: its product with any vector counts
+/// how many times the vector is in it. Zero if there is no such part, to twelve digits, and for vectors that are not chosen.
+std::array<Vector3, 3> own_parts(
+  const std::array<Vector3, 3>& vectors, const std::array<bool, 3>& chosen) noexcept;
 
-/// Returns the own part, divided by the square of its length: its product with any vector is the number of times that the
-/// chosen vector is in it. Zero if there is no own part.
-Vector3 dual_of(std::span<const Vector3> vectors, std::size_t which) noexcept;
-
-/// Returns the duals of the periodic vectors of a box, given by its flags and any vectors of its lattice; zero along axes that
-/// are not periodic, or whose vector has no length.
+/// Returns the duals of the periodic vectors of a box, given by its flags and any vectors of its lattice: their product with any
+/// vector is the number of times that the periodic vector is in it. Zero along axes that are not periodic, or whose vector has
+/// no length or no part of its own.
 std::array<Vector3, 3> periodic_duals(
   const Box& box, const std::array<Vector3, 3>& vectors) noexcept;
 
 /// The count of each box vector.
 using BoxCounts = std::array<std::int64_t, 3>;
+
+template <class Number>
+std::array<Number, 3> minus(const std::array<Number, 3>& a, const std::array<Number, 3>& b) noexcept
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
 
 /// Finds the shortest periodic image of a vector, in any box, however tilted.
 class MinimumImage
@@ -92,9 +95,6 @@ private:
   bool shorten(std::size_t which, double j_times, double k_times) noexcept;
   void reduce() noexcept;
   void make_steps();
-  bool descend(const Vector3& vector, double slack, Vector3& counts) const noexcept;
-  Vector3 smallest_of_ties(
-    const Vector3& vector, double slack, const Vector3& counts) const noexcept;
 
   std::array<Twofold3, 3> vectors_ = {}; ///< of the box; 0 along axes that are not periodic
   bool periodic_ = false;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 
 namespace granular
@@ -188,12 +189,7 @@ private:
   template <class Fits>
   bool all_rows(const Fits& fits) const
   {
-    std::size_t row = 0;
-    while (row < sample_.rows && fits(row))
-    {
-      ++row;
-    }
-    return row == sample_.rows;
+    return std::ranges::all_of(std::views::iota(std::size_t{ 0 }, sample_.rows), fits);
   }
 
   std::vector<std::string_view> names_;

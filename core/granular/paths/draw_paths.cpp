@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <optional>
 
 namespace granular
@@ -56,8 +55,7 @@ double length_of(const Paths& paths, std::int64_t first, std::int64_t end)
 /// Moves a point into the box along periodic axes. Returns how many of each vector were taken away.
 BoxCounts wrap(const BoxImages& images, Vector3& point)
 {
-  const Vector3 origin = values_of(images.box.origin);
-  const Vector3 offset = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
+  const Vector3 offset = minus(point, values_of(images.box.origin));
   BoxCounts counts;
   BoxCounts back;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -74,8 +72,8 @@ class Drawer
 public:
   Drawer(const Paths& paths, const Vector3& origin)
     : paths_(paths)
+    , origin_(minus(origin, paths.shown_origin))
   {
-    std::ranges::transform(origin, paths.shown_origin, origin_.begin(), std::minus<>());
     lines_.begins.push_back(0);
   }
 
@@ -86,45 +84,34 @@ public:
       {
         length_ = length_of(paths_, first, end);
         path_ = path;
-        paths_.crossings.empty() ? this->draw_whole(first, end) : this->draw_split(first, end);
+        for (std::int64_t place = first; place < end; ++place)
+        {
+          if (place > first && !paths_.crossings.empty())
+          {
+            this->cut(place);
+          }
+          this->add_point(this->drawn(place), place, 0);
+        }
+        this->end_line();
       });
     return std::move(lines_);
   }
 
 private:
-  void draw_whole(std::int64_t first, std::int64_t end)
-  {
-    for (std::int64_t place = first; place < end; ++place)
-    {
-      const double* const point = paths_.points.data() + 3 * place;
-      this->add_point({ point[0], point[1], point[2] }, place, 0);
-    }
-    this->end_line();
-  }
-
-  void draw_split(std::int64_t first, std::int64_t end)
-  {
-    this->add_point(this->shown(first, origin_), first, 0);
-    for (std::int64_t place = first + 1; place < end; ++place)
-    {
-      const std::int64_t* const counts = paths_.crossings.data() + 3 * place;
-      if (counts[0] != 0 || counts[1] != 0 || counts[2] != 0)
-      {
-        this->cut(place, { counts[0], counts[1], counts[2] });
-      }
-      this->add_point(this->shown(place, origin_), place, 0);
-    }
-    this->end_line();
-  }
-
   /// Draws a step across faces, but for the place that it goes to. The parts of a step across several periods cross each face
   /// once at most; a step across very many is left out.
-  void cut(std::int64_t place, const BoxCounts& counts)
+  void cut(std::int64_t place)
   {
+    BoxCounts counts;
+    std::copy_n(paths_.crossings.data() + 3 * place, 3, counts.begin());
+    if (counts == BoxCounts{})
+    {
+      return;
+    }
     const auto frame = static_cast<std::size_t>(paths_.frames[static_cast<std::size_t>(place)]);
     if (!images_ || frame_ != frame)
     {
-      images_.emplace(granular::less_origin(paths_.headers[frame].box, paths_.shown_origin));
+      images_.emplace(less_origin(paths_.headers[frame].box, paths_.shown_origin));
       frame_ = frame;
     }
     std::int64_t most = 0;
@@ -137,8 +124,8 @@ private:
       this->end_line();
       return;
     }
-    Step step{ this->shown(place - 1, {}), {}, {}, place - 1, 0, 0 };
-    const Vector3 to = this->shown(place, {});
+    Step step{ this->shown(place - 1), {}, {}, place - 1, 0, 0 };
+    const Vector3 to = this->shown(place);
     const Vector3 way = images_->images.moved(to, counts, step.from);
     const std::int64_t steps = most > 1 ? most + 1 : 1;
     BoxCounts before = {};
@@ -149,16 +136,16 @@ private:
       step.to = to;
       if (i < steps)
       {
-        const Vector3 start = this->shown(place - 1, {});
+        const Vector3 start = this->shown(place - 1);
         step.to = { start[0] + step.end * way[0], start[1] + step.end * way[1],
           start[2] + step.end * way[2] };
         now = wrap(*images_, step.to);
       }
-      step.counts = { now[0] - before[0], now[1] - before[1], now[2] - before[2] };
+      step.counts = minus(now, before);
       this->cut(step);
       if (i < steps)
       {
-        this->add_point(less_origin(step.to), place - 1, step.end);
+        this->add_point(minus(step.to, origin_), place - 1, step.end);
       }
       before = now;
       step.from = step.to;
@@ -194,7 +181,7 @@ private:
     for (std::size_t i = 0; i < count; ++i)
     {
       // from a place in a face the only part may begin at the opposite face
-      if (i > 0 || parts[i].begin != this->less_origin(step.from))
+      if (i > 0 || parts[i].begin != minus(step.from, origin_))
       {
         this->end_line();
         this->add_point(parts[i].begin, step.place, part_now());
@@ -204,7 +191,7 @@ private:
       {
         this->add_point(parts[i].end, step.place, part_now());
       }
-      else if (parts[i].end != this->less_origin(step.to)) // the end is in the opposite face
+      else if (parts[i].end != minus(step.to, origin_)) // the end is in the opposite face
       {
         this->add_point(parts[i].end, step.place, step.end);
         this->end_line();
@@ -212,15 +199,18 @@ private:
     }
   }
 
-  Vector3 less_origin(const Vector3& point) const
+  static Vector3 point_at(const std::vector<double>& points, std::int64_t place)
   {
-    return { point[0] - origin_[0], point[1] - origin_[1], point[2] - origin_[2] };
+    const double* const point = points.data() + 3 * place;
+    return { point[0], point[1], point[2] };
   }
 
-  Vector3 shown(std::int64_t place, const Vector3& less) const
+  Vector3 shown(std::int64_t place) const { return point_at(paths_.shown, place); }
+
+  Vector3 drawn(std::int64_t place) const
   {
-    const double* const point = paths_.shown.data() + 3 * place;
-    return { point[0] - less[0], point[1] - less[1], point[2] - less[2] };
+    return paths_.crossings.empty() ? point_at(paths_.points, place)
+                                    : minus(this->shown(place), origin_);
   }
 
   void add_point(const Vector3& point, std::int64_t place, double part)

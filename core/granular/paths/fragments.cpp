@@ -117,32 +117,18 @@ std::vector<Edge> find_edges(
   return edges;
 }
 
-/// Keeps the edges that join fragments: a spanning forest, which has fewer edges than particles.
-void join_all(Forest& forest, const std::vector<Edge>& edges, std::vector<Edge>& spanning)
-{
-  std::ranges::copy_if(
-    edges, std::back_inserter(spanning), [&](const Edge& edge) { return forest.join(edge); });
-}
-
-/// Joins the edges of all ranks on the first one, pair by pair of ranks. Collective.
+/// Joins the edges of all ranks on the first one. Collective.
 Forest merge_forests(const std::vector<Edge>& own, Communicator& ranks)
 {
   Forest forest;
-  std::vector<Edge> edges;
-  join_all(forest, own, edges);
-  const int size = ranks.size();
-  const int rank = ranks.rank();
-  for (int step = 1; step < size; step *= 2)
+  std::vector<Edge> spanning; // those that join fragments: fewer than particles
+  std::ranges::copy_if(
+    own, std::back_inserter(spanning), [&](const Edge& edge) { return forest.join(edge); });
+  Numbers out(static_cast<std::size_t>(ranks.size()));
+  out[0] = ranks.rank() == 0 ? 0 : std::ssize(spanning);
+  for (const Edge& edge : trade(spanning, out, swap_numbers(out, ranks), ranks))
   {
-    // messages by exchange, where a rank that fails leaves no other rank waiting
-    const bool gives = rank % (2 * step) == step;
-    const std::vector<Edge> given = gives ? std::exchange(edges, {}) : std::vector<Edge>();
-    Numbers out(static_cast<std::size_t>(size));
-    out[static_cast<std::size_t>(gives ? rank - step : rank)] =
-      static_cast<std::int64_t>(given.size());
-    const Numbers in = swap_numbers(out, ranks);
-    const std::vector<Edge> came = trade(given, out, in, ranks);
-    join_all(forest, came, edges);
+    forest.join(edge);
   }
   return forest;
 }

@@ -2,6 +2,7 @@
 #include "granular/paths/paths.h"
 
 #include "granular/local/id_finder.h"
+#include "granular/local/minimum_image.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/exchange_frames.h"
 #include "granular/paths/unwrap.h"
@@ -134,10 +135,8 @@ private:
           paths_.shown.begin() + 3 * place);
       }
     }
-    Vector3 less;
-    std::ranges::transform(join_.origin, join_.frames_origin, less.begin(), std::minus<>());
     convert_positions(plan_form(Coordinates::Absolute, ColumnRole::UnwrappedPosition),
-      frame.header.box, less, counts, frame.points);
+      frame.header.box, minus(join_.origin, join_.frames_origin), counts, frame.points);
     std::ranges::transform(frame.points, drifts, frame.points.begin(), std::plus<>());
     scatter(frame.points, 3, to, paths_.points);
     for (std::size_t a = 0; a < frame.arrays.size(); ++a)

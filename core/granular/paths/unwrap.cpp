@@ -27,12 +27,6 @@ Vector3 add(const Vector3& a, double times, const Vector3& b) noexcept
   return { a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2] };
 }
 
-template <class Numbers>
-Numbers minus(const Numbers& a, const Numbers& b) noexcept
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
 std::array<Vector3, 3> vectors_of(const Box& box) noexcept
 {
   return { values_of(box.vectors[0]), values_of(box.vectors[1]), values_of(box.vectors[2]) };
