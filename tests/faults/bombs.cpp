@@ -7,12 +7,9 @@
 #include "../support/own_folder.h"
 
 #include "granular/common/error.h"
-#include "granular/data_file/data_file.h"
-#include "granular/decomposition/decomposition_file.h"
 #include "granular/dump/formats/dump_files.h"
 #include "granular/euler/euler_file.h"
 #include "granular/frames/run_index.h"
-#include "granular/local/local_file.h"
 #include "granular/restart/restart_file.h"
 
 #include <gtest/gtest.h>
@@ -77,27 +74,11 @@ std::string bomb(const Parts& parts, std::int64_t bytes, const Pack& pack)
   return packed;
 }
 
-std::string rows_header(const std::string& what, std::int64_t rows, const std::string& columns)
-{
-  return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF " + what + "\n" + std::to_string(rows) +
-    "\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: " + what + " " + columns + "\n";
-}
-
 std::vector<Part> particles(std::int64_t rows)
 {
-  return { { rows_header("ATOMS", rows, "id type x y z"), "1 1 0 0 0\n" } };
-}
-
-std::vector<Part> contacts(std::int64_t rows)
-{
-  return { { rows_header("ENTRIES", rows, "x1 y1 z1 x2 y2 z2"), "0 0 0 1 1 1\n" } };
-}
-
-std::vector<Part> data_file(std::int64_t rows)
-{
-  return { { "LAMMPS data file\n\n" + std::to_string(rows) +
-      " atoms\n1 atom types\n\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms\n\n",
-    "1 1 0.1 2500 0.5 0.5 0.5\n" } };
+  return { { "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + std::to_string(rows) +
+      "\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n",
+    "1 1 0 0 0\n" } };
 }
 
 std::vector<Part> cells(std::int64_t rows)
@@ -115,16 +96,6 @@ std::vector<Part> cells(std::int64_t rows)
     parts.push_back({ std::string("SCALARS ") + name + " float 1\nLOOKUP_TABLE default\n", "1\n" });
   }
   return parts;
-}
-
-std::vector<Part> subdomains(std::int64_t rows)
-{
-  const std::string count = std::to_string(rows);
-  return { { "# vtk DataFile Version 2.0\nLIGGGHTS mesh/gran/VTK export\nASCII\n"
-             "DATASET RECTILINEAR_GRID\nDIMENSIONS " +
-               count + " 2 2\nX_COORDINATES " + count + " float\n",
-             "0.5\n" },
-    { "Y_COORDINATES 2 float\n0 1\nZ_COORDINATES 2 float\n0 1\n", "" } };
 }
 
 /// A restart file without the particles, of one process.
@@ -196,10 +167,7 @@ TEST_F(Bombs, AreRefused)
   };
   const Kind kinds[] = {
     { "particles", particles, granular::dump_format() },
-    { "contacts", contacts, granular::local_format() },
-    { "data_file", data_file, granular::data_file_format() },
     { "cells", cells, granular::euler_format() },
-    { "subdomains", subdomains, granular::decomposition_format() },
     { "restart", restart, granular::restart_format(), of_restart },
   };
   for (const Kind& kind : kinds)

@@ -82,14 +82,6 @@ def convert_last(path):
     return convert(path, "--frames", "-1")
 
 
-def write_series(path):
-    try:
-        granular.write_series([os.path.join(GOOD, f"euler_{step}.vtk") for step in (1000, 2000)], 1, path)
-    except OSError as error:
-        return said(error)
-    return None
-
-
 def check_durable():
     """Two calls wait for the disk for each of three frames: for the bytes of the file, and for its name."""
     for path, durable, expected in (("one.dump", None, 2), ("one.dump", False, 0), ("many_*.dump", None, 0), ("many_*.dump", True, 6)):
@@ -109,6 +101,5 @@ with warnings.catch_warnings():
     check_writer("new.dump", write_by_library, failing_calls.WRITER_FAULTS + failing_calls.MEMORY_FAULTS)
     # Python says it when closing is interrupted: the old file stays
     in_python = [one._replace(harmless=one.harmless and one.name != "closing is interrupted") for one in failing_calls.WRITER_FAULTS]
-    for name, write in {"new.csv": convert_last, "new.series": write_series}.items():
-        check_writer(name, write, in_python, most_left=3)
+    check_writer("new.csv", convert_last, in_python, most_left=3)
     check_durable()

@@ -78,14 +78,6 @@ std::string particle(std::int64_t step)
   return header(step, 1) + "1 " + std::to_string(step) + " 0 0\n";
 }
 
-std::string contact(std::int64_t step)
-{
-  const std::string text = header(step, 1, "x1 y1 z1 x2 y2 z2 c_f");
-  return replaced(
-           replaced(text, "ITEM: ATOMS", "ITEM: ENTRIES"), "NUMBER OF ATOMS", "NUMBER OF ENTRIES") +
-    "0 0 0 1 1 1 " + std::to_string(step) + "\n";
-}
-
 std::string cell(std::int64_t step)
 {
   std::string text =
@@ -189,11 +181,6 @@ void expect_file(const std::string& path, const char* what,
 TEST_F(LoadFiles, FramesOfATextDump)
 {
   expect_file(this->path("a.dump"), "frames of a text dump", particle, "points");
-}
-
-TEST_F(LoadFiles, FramesOfContacts)
-{
-  expect_file(this->path("a.dump"), "frames of contacts", contact, "c_f");
 }
 
 TEST_F(LoadFiles, FramesOfABinaryDump)

@@ -233,31 +233,3 @@ TEST_F(Places, FoldersThatMayNotBeRead)
   const std::string refused = this->path("locked/") + ": cannot list the folder: Permission denied";
   EXPECT_EQ(ended.text, refused + "\n" + refused);
 }
-
-TEST_F(Places, NoHome)
-{
-  const std::string pipe = this->path("pipe");
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0644), 0);
-  const std::string file = this->path("a.dump");
-  fs::copy_file(good(kinds[0].file), file);
-  const Seen plain = look(file);
-  for (const std::string home :
-    { "", "relative", "/dev/null", "/proc", "/none/none", pipe.c_str(), file.c_str() })
-  {
-    for (const char* const variable : { "HOME", "TMPDIR" })
-    {
-      const Ended ended = run_apart(
-        [&]
-        {
-          for (const char* const each : { "HOME", "TMPDIR" })
-          {
-            ::unsetenv(each);
-          }
-          home.empty() ? 0 : ::setenv(variable, home.c_str(), 1);
-          const bool same = look(file, GRANULAR_KIND_DUMP) == plain;
-          return std::string(same ? "same" : "other");
-        });
-      EXPECT_EQ(ended.how + " " + ended.text, "done same") << variable << "=" << home;
-    }
-  }
-}

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Strange names and places for the package and the command; and few open files."""
+"""Strange names and places for the package and the command."""
 import contextlib
 import io
 import os
-import resource
 import shutil
 import socket
-import stat
 import warnings
 
 import command
@@ -76,7 +74,7 @@ for name in ("new\nline", os.fsdecode(b"\xff\xfe")):
     out, said = command.granular("check", "--", name + ".dump", env={**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0"})
     assert out == NAMES[name] + ".dump: 1 frames, 1200 rows, nothing is wrong\n" and not said, (name, out, said)
 
-# ---- no files, and links ------------------------------------------------------------------------
+# ---- no files -----------------------------------------------------------------------------------
 os.mkdir("places")
 os.chdir("places")
 os.mkfifo("pipe")
@@ -98,24 +96,4 @@ for place in ("pipe", "folder", "socket", "/dev/full", "loop", "none/none"):  # 
     os.remove("out.csv")
     assert {name: os.lstat(name).st_mode for name in os.listdir(".")} == before, (place, os.listdir("."))
 
-with open("file.csv", "w") as file:
-    file.write("old")
-os.chmod("file.csv", 0o640)
-os.symlink("file.csv", "link.csv")
-os.symlink("new.csv", "new_link.csv")
-for link in ("link.csv", "new_link.csv"):
-    convert(GRAINS, link)
-    assert os.path.islink(link)
-assert stat.S_IMODE(os.stat("file.csv").st_mode) == 0o640
-assert command.content("file.csv") == command.content("new.csv") != b"old"
-before = os.umask(0o077)
-convert(GRAINS, "mask.csv")
-os.umask(before)
-assert stat.S_IMODE(os.stat("mask.csv").st_mode) == 0o600
-
-# ---- few open files -----------------------------------------------------------------------------
-for i in range(300):
-    os.symlink(GRAINS, f"s_{i}.dump")
-said = command.granular("check", "s_*.dump", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (64, 64)))
-assert "nothing is wrong" in said[0], said
 print("all places were tried")

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A day of use in minutes: opens, steps, plays, filters, pictures, files, states and errors, again and again, beside a simulation
-that appends.
+"""A day of use in minutes: opens, steps, plays, filters, pictures, files, states and errors, again and again. Files that grow and
+properties that change: changing_updates.cxx.
 
-soak.py MINUTES [ROUNDS]: goes on for that long, or for that many rounds. Nothing is kept between rounds. It prints memory,
-descriptors and threads each minute, less what ParaView itself keeps of each view. At its end it fits slopes over the second half, and
-raises if memory grows by more than 1 MiB in 1000 updates, or if descriptors or threads grow. Memory is also told by activity.
+soak.py MINUTES: goes on for that long. Nothing is kept between rounds. It prints memory, descriptors and
+threads each minute, less what ParaView itself keeps of each view. At its end it fits slopes over the second half, and raises if
+memory grows by more than 1 MiB in 1000 updates, or if descriptors or threads grow. Memory is also told by activity.
 """
 import contextlib
 import ctypes
 import gc
 import os
-import subprocess
 import sys
 import time
 
@@ -20,25 +19,8 @@ from paraview import simple
 
 SAMPLES = os.environ["GRANULAR_SAMPLES"]
 MINUTES = float(sys.argv[1])
-ROUNDS = int(sys.argv[2]) if len(sys.argv) > 2 else None
 MOST_PER_THOUSAND = 1.0  # MiB per 1000 updates
 TRIM = ctypes.CDLL(None).malloc_trim  # what is free is given back, so that the rest is what is held
-
-SIMULATION = r"""
-import os, random, sys, time
-path, step = sys.argv[1], 0
-while True:
-    rows = "".join(f"{i} 1 {(i * 7 + step) % 64 / 8} {i % 32 / 4} {i % 128 / 16} 0.05 {step} 0 0\n" for i in range(1, 1001))
-    frame = (f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1000\nITEM: BOX BOUNDS pp pp pp\n0 8\n0 8\n0 8\n"
-             f"ITEM: ATOMS id type x y z radius vx vy vz\n{rows}")
-    fresh = step % 100 == 0  # it starts again, in a new file
-    with open(path + ".new" if fresh else path, "w" if fresh else "a") as out:
-        out.write(frame)
-    if fresh:
-        os.replace(path + ".new", path)
-    step = (step + 1) % 100
-    time.sleep(0.2)
-"""
 
 
 def sample(*path):
@@ -50,7 +32,6 @@ class Use:
 
     def __init__(self):
         self.updates = 0
-        self.random = numpy.random.default_rng(1)
         self.views = 0  # ParaView keeps of each one threads, a descriptor and memory, whatever is shown
 
     def update(self, source, moment=None):
@@ -89,30 +70,6 @@ class Use:
                 self.update(reader, times[-1])
                 assert self.points(reader) == expected, (path, self.points(reader))
             simple.Delete(reader)
-
-    def change(self):
-        """Other arrays, coordinates, strides, regions and threads."""
-        reader = simple.GranularDumpReader(FileNames=[sample("grains.dump")])
-        for _ in range(20):
-            reader.SortById = int(self.random.integers(2))
-            reader.Stride = int(self.random.integers(1, 4))
-            reader.Threads = int(self.random.integers(3))
-            reader.Coordinates = ["Absolute", "Unwrapped", "Scaled"][self.random.integers(3)]
-            reader.PointArrayStatus = ["id", "radius", "v"][:self.random.integers(1, 4)]
-            self.update(reader, float(self.random.choice([1000, 2000])))
-            assert self.points(reader) == 1200 // reader.Stride, (self.points(reader), reader.Stride)
-        simple.Delete(reader)
-
-    def follow(self):
-        """A file that grows, and is now and then replaced."""
-        reader = simple.GranularDumpReader(FileNames=[os.path.abspath("growing.dump")], RefreshOnUpdate=1)
-        for _ in range(5):
-            self.update(reader)
-            frame = granular.fetch(reader)
-            assert len(frame["points"]) == 1000 and (frame["v"][:, 0] == frame["timestep"]).all()
-            simple.ReloadFiles(reader)
-            self.updates += 1
-        simple.Delete(reader)
 
     def filters(self):
         """Each filter and source once."""
@@ -212,34 +169,27 @@ def cost_of_views(use):
 
 
 def main():
-    activities = ["open_and_step", "change", "follow", "filters", "look", "write", "state", "errors"]
+    activities = ["open_and_step", "filters", "look", "write", "state", "errors"]
     granular.load_plugin(ns=vars(simple))
-    use, rounds, seen, grown = Use(), 0, [], dict.fromkeys(activities, 0.0)
+    use, rounds, grown = Use(), 0, dict.fromkeys(activities, 0.0)
     start = told = time.monotonic()
-    simulation = subprocess.Popen(["/usr/bin/python3", "-c", SIMULATION, "growing.dump"])
-    try:
-        while not os.path.exists("growing.dump"):
-            time.sleep(0.1)
-        half = []
-        cost = cost_of_views(use)
-        print("soak | a view of ParaView with a sphere keeps %.2f MiB, %g descriptors, %g threads" % tuple(cost), flush=True)
-        while time.monotonic() - start < 60 * MINUTES and (ROUNDS is None or rounds < ROUNDS):
-            for name in activities:
-                before = status()[0]
-                getattr(use, name)()
-                if half:
-                    grown[name] += status()[0] - before
-            rounds += 1
-            seen.append((use.updates, *(now - use.views * each for now, each in zip(status(), cost))))
-            if time.monotonic() - start > 30 * MINUTES or (ROUNDS is not None and 2 * rounds >= ROUNDS):
-                half.append(seen[-1])
-            if time.monotonic() - told > 60 or rounds == 1:
-                told = time.monotonic()
-                print("soak | %.1f min | %d rounds | %d updates | %.1f MiB | %d descriptors | %d threads, without those of %d views"
-                      % ((told - start) / 60, rounds, *seen[-1], use.views), flush=True)
-    finally:
-        simulation.kill()
-        simulation.wait()
+    half = []
+    cost = cost_of_views(use)
+    print("soak | a view of ParaView with a sphere keeps %.2f MiB, %g descriptors, %g threads" % tuple(cost), flush=True)
+    while time.monotonic() - start < 60 * MINUTES:
+        for name in activities:
+            before = status()[0]
+            getattr(use, name)()
+            if half:
+                grown[name] += status()[0] - before
+        rounds += 1
+        seen = (use.updates, *(now - use.views * each for now, each in zip(status(), cost)))
+        if time.monotonic() - start > 30 * MINUTES:
+            half.append(seen)
+        if time.monotonic() - told > 60 or rounds == 1:
+            told = time.monotonic()
+            print("soak | %.1f min | %d rounds | %d updates | %.1f MiB | %d descriptors | %d threads, without those of %d views"
+                  % ((told - start) / 60, rounds, *seen, use.views), flush=True)
     print("soak | second half, by activity, MiB: " + ", ".join(f"{name} {mib:+.2f}" for name, mib in grown.items()))
     table = numpy.array(half, dtype=float)
     per_thousand = [1000 * numpy.polyfit(table[:, 0], table[:, column], 1)[0] for column in (1, 2, 3)]
