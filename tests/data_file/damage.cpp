@@ -58,7 +58,7 @@ TEST(DataDamage, CutAnywhere)
 
 TEST(DataDamage, AnyByteChanged)
 {
-  const std::int64_t before = peak_bytes();
+  const std::int64_t before = restart_peak();
   change_each_byte(good, [](const std::string& text) { result_of(text); });
   EXPECT_LT(peak_bytes() - before, std::int64_t{ 64 } << 20);
 }
@@ -66,7 +66,7 @@ TEST(DataDamage, AnyByteChanged)
 // A count is a claim: there is no memory for rows that are not there.
 TEST(DataDamage, ClaimsOfAnySize)
 {
-  const std::int64_t before = peak_bytes();
+  const std::int64_t before = restart_peak();
   for (const char* const counted : { "3 atoms", "2 bonds" })
   {
     for (const char* const claim :

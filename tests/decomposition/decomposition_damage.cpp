@@ -109,7 +109,7 @@ TEST(DecompositionDamage, CutBeforeTheLastTag)
 
 TEST(DecompositionDamage, ClaimsOfAnySize)
 {
-  const std::int64_t before = peak_bytes();
+  const std::int64_t before = restart_peak();
   const std::string files[] = { two_boxes(), two_voxels(counts_and_ranks),
     data_file("good/decomposition/arrays_42.vtk"),
     data_file("good/decomposition/arrays_42_binary.vtk"),

@@ -39,7 +39,7 @@ class MemoryCheck
 {
 public:
   MemoryCheck()
-    : before_(peak_bytes())
+    : before_(restart_peak())
   {
     largest_request = 0;
   }

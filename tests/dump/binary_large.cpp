@@ -141,7 +141,7 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   ASSERT_EQ(index.size(), 1u);
   EXPECT_EQ(index.first_piece(0).entry.rows, rows);
 
-  const std::int64_t before = peak_bytes();
+  const std::int64_t before = restart_peak();
   granular::DumpRequest request;
   request.stride = 1 << 30;
   request.wanted = [](const granular::ArrayInfo&) { return false; };

@@ -144,7 +144,7 @@ std::string error_of_opening(const std::string& path, const granular::FileFormat
 void expect_limit(const std::string& path, std::size_t bytes, const std::string& base,
   const granular::FileFormat& format, std::int64_t most)
 {
-  const std::int64_t before = peak_bytes();
+  const std::int64_t before = restart_peak();
   const std::string error = error_of_opening(base, format);
   EXPECT_LT(peak_bytes() - before, most);
   EXPECT_TRUE(error.starts_with(path + "@")) << error;

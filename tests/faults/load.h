@@ -3,6 +3,8 @@
 #ifndef granular_tests_faults_load_h
 #define granular_tests_faults_load_h
 
+#include "../support/resident_memory.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -10,33 +12,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <utility>
-
-#include <malloc.h>
 
 /// Returns the size of a case: the long form has GRANULAR_LOAD=full in its environment.
 inline std::int64_t size_of_load(std::int64_t quick, std::int64_t full)
 {
   const char* const load = std::getenv("GRANULAR_LOAD");
   return load != nullptr && std::string(load) == "full" ? full : quick;
-}
-
-/// Returns a number of /proc/self/status, in bytes where it has a unit.
-inline std::int64_t status_of_process(const std::string& name)
-{
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);)
-  {
-    if (line.rfind(name + ":", 0) == 0)
-    {
-      const bool kilo = line.find("kB") != std::string::npos;
-      return std::stoll(line.substr(name.size() + 1)) * (kilo ? 1024 : 1);
-    }
-  }
-  return 0;
 }
 
 inline std::int64_t open_descriptors()
@@ -46,14 +30,6 @@ inline std::int64_t open_descriptors()
 }
 
 constexpr std::int64_t mebibyte = std::int64_t{ 1 } << 20;
-
-/// Gives back memory that is free, and lets the system look for the peak anew. Returns the memory of the process.
-inline std::int64_t restart_peak()
-{
-  ::malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";
-  return status_of_process("VmRSS");
-}
 
 /// Measures a case from its beginning, and tells at its end.
 class Load
@@ -70,20 +46,15 @@ public:
   Load(const Load&) = delete;
   Load& operator=(const Load&) = delete;
 
-  /// Returns the most memory that the case has had in addition. [bytes]
-  std::int64_t peak() const { return status_of_process("VmHWM") - before_; }
-
   /// Expects no more than so much memory, and tells what the case took.
   void end(std::int64_t most)
   {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-    const std::int64_t peak = this->peak();
+    const std::int64_t peak = peak_bytes() - before_;
     std::printf("load | %s | %.1f s | %.0f MiB of %.0f | %lld descriptors more\n", what_.c_str(),
       seconds.count(), static_cast<double>(peak) / mebibyte, static_cast<double>(most) / mebibyte,
       static_cast<long long>(open_descriptors() - descriptors_));
-#ifndef GRANULAR_TEST_SANITIZED // a sanitizer keeps freed memory
     EXPECT_LE(peak, most) << what_;
-#endif
   }
 
   /// Expects as many open descriptors as at the beginning.

@@ -193,7 +193,7 @@ TEST(LocalDamage, CutAnywhere)
 // A count is a claim: there is no memory for rows that are not there.
 TEST(LocalDamage, ClaimsOfAnySize)
 {
-  const std::int64_t before = peak_bytes();
+  const std::int64_t before = restart_peak();
   for (const Form& form : forms())
   {
     SCOPED_TRACE(form.name);

@@ -10,19 +10,40 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-/// The most memory that the process has had; 0 under a sanitizer, which keeps freed memory.
+/// Returns a number of /proc/self/status, in bytes where it has a unit.
+inline std::int64_t status_of_process(const std::string& name)
+{
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line.rfind(name + ":", 0) == 0)
+    {
+      const bool kilo = line.find("kB") != std::string::npos;
+      return std::stoll(line.substr(name.size() + 1)) * (kilo ? 1024 : 1);
+    }
+  }
+  return 0;
+}
+
+/// Gives back memory that is free, and lets the system look for the peak anew. Returns the memory of the process.
+inline std::int64_t restart_peak()
+{
+  ::malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return status_of_process("VmRSS");
+}
+
+/// The most memory that the process has had since then; 0 under a sanitizer, which keeps freed memory.
 inline std::int64_t peak_bytes()
 {
 #ifdef GRANULAR_TEST_SANITIZED
   return 0;
 #else
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{ usage.ru_maxrss } * 1024;
+  return status_of_process("VmHWM");
 #endif
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which writer granular.save and SaveData take, and what is refused. The argument names the system whose writer it is."""
+"""Which writer granular.save and SaveData take, and what is refused. The arguments name the systems whose writers these
+are."""
 import sys
 
 import granular
@@ -100,5 +101,6 @@ def decomposition():
 
 
 enter_empty_folder()
-{check.__name__: check for check in (local, euler, decomposition)}[sys.argv[1]]()
+for system in sys.argv[1:]:
+    {check.__name__: check for check in (local, euler, decomposition)}[system]()
 print("chosen")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""On any number of ranks the files are those that one process writes. The argument names the system whose writer it is."""
+"""On any number of ranks the files are those that one process writes. The arguments name the systems whose writers these are."""
 import gzip
 import os
 import sys
@@ -269,5 +269,6 @@ def decomposition():
     assert b"nlocal 1 " in text and text.startswith(b"# vtk DataFile Version 3.0"), text[:300]
 
 
-{check.__name__: check for check in (dump, local, euler, decomposition)}[sys.argv[1]]()
+for system in sys.argv[1:]:
+    {check.__name__: check for check in (dump, local, euler, decomposition)}[system]()
 print("written")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What goes wrong on one rank alone: an error that names it, the old file as it was, and no rank that waits.
 
-The argument names the system whose writer it is."""
+The arguments name the systems whose writers these are."""
 import os
 import sys
 
@@ -55,5 +55,6 @@ def check(source, faults, forms):
         os.remove(new)
 
 
-check(*{made.__name__: made for made in (dump, local, euler, decomposition)}[sys.argv[1]]())
+for system in sys.argv[1:]:
+    check(*{made.__name__: made for made in (dump, local, euler, decomposition)}[system]())
 print("alive")
