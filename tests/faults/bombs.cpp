@@ -198,14 +198,6 @@ TEST_F(Bombs, SmallContentIsReadWhateverItsFile)
   EXPECT_EQ(error_of_opening(path, granular::dump_format()), "");
 }
 
-// Packed files within packed files are not unpacked.
-TEST_F(Bombs, Nested)
-{
-  const std::string path =
-    this->write("a.dump.gz", packing::gzip(packing::gzip("ITEM: TIMESTEP\n0\n")));
-  EXPECT_NE(error_of_opening(path, granular::dump_format()), "");
-}
-
 // Members and frames without content: a million of them end, and are no seek points.
 TEST_F(Bombs, EmptyParts)
 {

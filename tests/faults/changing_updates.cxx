@@ -190,7 +190,7 @@ void FollowUnderChange(const std::string& file, int count, const char* pool)
       std::ofstream out(file, std::ios::binary | std::ios::app);
       for (bool last = false; !last; ++frames)
       {
-        last = stopped; // a last frame for both
+        last = stopped;                       // a last frame for both
         out << FrameOf(frames) << std::flush; // a few KiB at a time
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       }

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -147,35 +146,10 @@ inline long next_number(long number, long calls, long most)
   return number + (number < std::min(step, most) ? 1 : step);
 }
 
-/// Counts the faults of a test, and prints their number at its end.
-class FaultCount
-{
-public:
-  void add(bool fired = true) { faults_ += fired ? 1 : 0; }
-
-  explicit FaultCount(bool says = true)
-    : says_(says)
-  {
-  }
-  FaultCount(const FaultCount&) = delete;
-  ~FaultCount()
-  {
-    if (says_)
-    {
-      std::printf("faults: %ld\n", faults_);
-    }
-  }
-
-private:
-  bool says_;
-  long faults_ = 0;
-};
-
 /// Calls use(number), which lets that call fail, for each call until it returns fewer calls than that; with `most`, of many calls for
 /// some. Files and memory must be as many after it as before: something may be kept for good, but not each time. Returns how many faults
 /// there were.
-inline long fail_each(
-  const char* name, long most, FaultCount& faults, const std::function<long(long number)>& use)
+inline long fail_each(const char* name, long most, const std::function<long(long number)>& use)
 {
   constexpr int most_tries = 3;
   long made = 0;
@@ -198,7 +172,6 @@ inline long fail_each(
     made = std::max(made, possible);
     fired = possible >= number;
     delivered += fired ? 1 : 0;
-    faults.add(fired);
     number = next_number(number, made, most);
   }
   return delivered;

@@ -128,7 +128,6 @@ protected:
         const long possible = this->FailOne(one, rank, number, use);
         made = std::max(made, possible);
         fired = possible >= number;
-        this->Faults.add(fired);
         delivered += fired ? 1 : 0;
         if (this->OfAny(HasFailure()))
         {
@@ -387,7 +386,6 @@ protected:
   }
 
   granular::MpiCommunicator Ranks{ MPI_COMM_WORLD };
-  FaultCount Faults{ this->Rank() == 0 };
 };
 
 /// A process alone: each class, and every call.

@@ -164,12 +164,11 @@ TEST_P(FailingWriter, LeavesTheOldFileOrTheNewOne)
   ASSERT_FALSE(whole_.empty());
   const bool large = GetParam().rows > 0;
   const bool waits = std::string(GetParam().name) != "a file for each frame"; // for the disk
-  FaultCount faults;
   for (const FailingCase& one : large ? std::span<const FailingCase>(large_cases) : writer_cases)
   {
     const long most = large ? most_of_large : of_memory(one) ? most_of_memory : 0;
     const long delivered =
-      fail_each(one.name, most, faults, [&](long number) { return this->try_one(one, number); });
+      fail_each(one.name, most, [&](long number) { return this->try_one(one, number); });
     EXPECT_TRUE(HasFailure() || (delivered > 0) == (waits || one.kinds != calls::sync)) << one.name;
   }
   EXPECT_EQ(written_but_ > 0, waits && !large) << "of the folder, which is behind the file";

@@ -233,8 +233,7 @@ protected:
       const long most = most_calls(one, usual, bytes);
       const auto use = [&](long number)
       { return this->try_one(clean, one, number, most, prepare); };
-      expect_delivered(
-        one.name, fail_each(one.name, is_of_file(one) ? 0 : most_of_memory, faults, use));
+      expect_delivered(one.name, fail_each(one.name, is_of_file(one) ? 0 : most_of_memory, use));
       if (::testing::Test::HasFailure())
       {
         return;
@@ -272,15 +271,14 @@ protected:
       EXPECT_TRUE(seen == clean) << seen.error << seen.said;
     }
     const bool complete = seen.frames == clean.frames && seen.values == clean.values;
-    EXPECT_TRUE(gives_others(one) || complete || !seen.error.empty() ||
-      seen.said.size() > clean.said.size())
+    EXPECT_TRUE(
+      gives_others(one) || complete || !seen.error.empty() || seen.said.size() > clean.said.size())
       << seen.frames << " of " << clean.frames << " frames, and " << seen.said;
     // who reads it is to know which file it was, unless the memory was for nothing of a file
     const bool names_file = (seen.error + seen.said).find(folder_.path("")) != std::string::npos;
     EXPECT_TRUE(gives_others(one) || complete || names_file || !is_of_file(one)) << seen.error;
   }
 
-  FaultCount faults;
   Folder folder_;
   std::vector<std::string> texts_;
   std::vector<std::string> names_;

@@ -55,21 +55,21 @@ std::int64_t frames_of(const RunHandle& run)
   return facts.frames;
 }
 
-/// Expects a frame of one particle, contact or cell whose number is the timestep.
-void expect_frame(const RunHandle& run, std::int64_t frame, std::int64_t step, const char* name)
+/// Expects a frame of one particle whose x is the timestep.
+void expect_frame(const RunHandle& run, std::int64_t frame, std::int64_t step)
 {
   granular_frame_facts facts = {};
   ASSERT_EQ(granular_frame_info(run.get(), frame, &facts), GRANULAR_OK) << message();
   EXPECT_EQ(facts.timestep, step);
-  EXPECT_EQ(doubles(read_frame(run, frame), name).at(0), static_cast<double>(step));
+  EXPECT_EQ(doubles(read_frame(run, frame), "points").at(0), static_cast<double>(step));
 }
 
-void expect_frames(const RunHandle& run, std::int64_t count, const char* name)
+void expect_frames(const RunHandle& run, std::int64_t count)
 {
   ASSERT_EQ(frames_of(run), count);
   for (const std::int64_t frame : { std::int64_t{ 0 }, count / 3, count - 1 })
   {
-    expect_frame(run, frame, frame, name);
+    expect_frame(run, frame, frame);
   }
 }
 
@@ -78,42 +78,11 @@ std::string particle(std::int64_t step)
   return header(step, 1) + "1 " + std::to_string(step) + " 0 0\n";
 }
 
-std::string cell(std::int64_t step)
-{
-  std::string text =
-    "# vtk DataFile Version 2.0\nLIGGGHTS mesh/VTK export\nASCII\nDATASET POLYDATA\n"
-    "POINTS 1 float\n0.5 0.5 0.5\nVERTICES 1 2\n1 0\nPOINT_DATA 1\nVECTORS v_avg float\n1 2 3\n";
-  for (const char* const name : { "volumefraction", "radius", "pressure" })
-  {
-    text += std::string("SCALARS ") + name + " float 1\nLOOKUP_TABLE default\n" +
-      std::to_string(step) + "\n";
-  }
-  return text;
-}
-
 /// A folder of the test, deleted at the end: it may take 4 GiB.
 class LoadFiles : public OwnFolder
 {
 protected:
   void TearDown() override { std::filesystem::remove_all(this->folder()); }
-
-  void expect_series(const std::string& what, std::int64_t count, const std::string& end,
-    const std::function<std::string(std::int64_t)>& content, const char* name) const
-  {
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      this->write("run_" + std::to_string(i) + end, content(i));
-    }
-    const std::string pattern = this->path("run_*" + end);
-    Load load(what);
-    {
-      const Opened opened = open_kind(pattern, GRANULAR_KIND_AUTOMATIC);
-      ASSERT_EQ(opened.error + opened.notices, "");
-      expect_frames(opened.run, count, name);
-      load.expect_closed();
-    }
-    load.end(16 * mebibyte + count * 1024 * 3 / 2);
-  }
 };
 
 /// Returns the frames of a file, or -1 after an error of opening or of the last frame, in memory that does not depend on its size.
@@ -138,14 +107,20 @@ std::int64_t frames_in(const std::string& what, const std::string& path, granula
 // ---- many files --------------------------------------------------------------------------------
 TEST_F(LoadFiles, SeriesOfDumps)
 {
-  this->expect_series(
-    "dumps in one folder", size_of_load(10'000, 1'000'000), ".dump", particle, "points");
-}
-
-TEST_F(LoadFiles, SeriesOfCells)
-{
-  this->expect_series(
-    "Euler files in one folder", size_of_load(2'000, 1'000'000), ".vtk", cell, "pressure");
+  const std::int64_t count = size_of_load(10'000, 1'000'000);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    this->write("run_" + std::to_string(i) + ".dump", particle(i));
+  }
+  const std::string pattern = this->path("run_*.dump");
+  Load load("dumps in one folder");
+  {
+    const Opened opened = open_kind(pattern, GRANULAR_KIND_AUTOMATIC);
+    ASSERT_EQ(opened.error + opened.notices, "");
+    expect_frames(opened.run, count);
+    load.expect_closed();
+  }
+  load.end(16 * mebibyte + count * 1024 * 3 / 2);
 }
 
 // ---- many frames in a file ---------------------------------------------------------------------
@@ -153,8 +128,7 @@ namespace
 {
 /// Writes a file of that many frames, and appends one when it was opened.
 void expect_file(const std::string& path, const char* what,
-  const std::function<std::string(std::int64_t)>& frame, const char* name,
-  const char* column_names = nullptr)
+  const std::function<std::string(std::int64_t)>& frame, const char* column_names = nullptr)
 {
   const std::int64_t count = size_of_load(10'000, 1'000'000);
   std::ofstream file(path, std::ios::binary);
@@ -167,11 +141,11 @@ void expect_file(const std::string& path, const char* what,
   {
     const Opened opened = open_kind(path, GRANULAR_KIND_AUTOMATIC, column_names);
     ASSERT_EQ(opened.error + opened.notices, "");
-    expect_frames(opened.run, count, name);
+    expect_frames(opened.run, count);
     file << frame(count);
     file.flush();
     ASSERT_EQ(granular_refresh(opened.run.get(), nullptr, nullptr, nullptr), GRANULAR_OK);
-    expect_frames(opened.run, count + 1, name);
+    expect_frames(opened.run, count + 1);
     load.expect_closed();
   }
   load.end(24 * mebibyte + count * 400);
@@ -180,7 +154,7 @@ void expect_file(const std::string& path, const char* what,
 
 TEST_F(LoadFiles, FramesOfATextDump)
 {
-  expect_file(this->path("a.dump"), "frames of a text dump", particle, "points");
+  expect_file(this->path("a.dump"), "frames of a text dump", particle);
 }
 
 TEST_F(LoadFiles, FramesOfABinaryDump)
@@ -194,7 +168,7 @@ TEST_F(LoadFiles, FramesOfABinaryDump)
     one.chunks = { { 1, static_cast<double>(step), 0, 0 } };
     return binary::write(form, { one }).bytes;
   };
-  expect_file(this->path("a.bin"), "frames of a binary dump", frame, "points", "id x y z");
+  expect_file(this->path("a.bin"), "frames of a binary dump", frame, "id x y z");
 }
 
 // ---- many columns: more in tests/dump/many_columns.cpp -----------------------------------------

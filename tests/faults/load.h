@@ -58,10 +58,7 @@ public:
   }
 
   /// Expects as many open descriptors as at the beginning.
-  void expect_closed() const
-  {
-    EXPECT_EQ(open_descriptors(), descriptors_) << what_;
-  }
+  void expect_closed() const { EXPECT_EQ(open_descriptors(), descriptors_) << what_; }
 
 private:
   std::string what_;

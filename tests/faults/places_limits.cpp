@@ -313,25 +313,6 @@ TEST_F(PlacesLimits, LittleMemory)
   EXPECT_EQ(count_hidden(this->folder()), 0);
 }
 
-/// A user may have no more threads: the caller's does it all.
-TEST_F(PlacesLimits, NoThreads)
-{
-  this->expect_right(
-    [&](const std::function<void()>& tasks)
-    {
-      limit(RLIMIT_NPROC, 0);
-      pthread_t thread = {};
-      if (!become_nobody() || ::access(this->folder().c_str(), R_OK | W_OK | X_OK) != 0 ||
-        ::pthread_create(
-          &thread, nullptr, [](void*) -> void* { return nullptr; }, nullptr) != EAGAIN)
-      {
-        return false;
-      }
-      tasks();
-      return true;
-    });
-}
-
 /// Whoever calls may have a small stack, and give small ones to our threads.
 TEST_F(PlacesLimits, SmallStacks)
 {

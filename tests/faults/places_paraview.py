@@ -83,7 +83,6 @@ socket.socket(socket.AF_UNIX).bind("socket")
 DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory"
 for place, why in {"pipe": DEVICE, "folder": FOLDER, "socket": "cannot open: ", "/dev/null": DEVICE, "/dev/zero": DEVICE}.items():
     expect_error(RuntimeError, lambda: granular.reader(os.path.join(HERE, place)), why)  # noqa: B023
-for place in ("pipe", "folder", "socket", "/dev/full", "none/none"):
     os.symlink(place, "link.dump")
     expect_error(RuntimeError, lambda: granular.save(opened, os.path.join(HERE, "link.dump")), "link.dump: cannot write: ")
     os.remove("link.dump")

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A day of use in minutes: opens, steps, plays, filters, pictures, files, states and errors, again and again. Files that grow and
+"""A day of use in minutes: opens, steps, plays, filters, pictures, files and states, again and again. Files that grow and
 properties that change: changing_updates.cxx.
 
 soak.py MINUTES: goes on for that long. Nothing is kept between rounds. It prints memory, descriptors and
 threads each minute, less what ParaView itself keeps of each view. At its end it fits slopes over the second half, and raises if
 memory grows by more than 1 MiB in 1000 updates, or if descriptors or threads grow. Memory is also told by activity.
 """
-import contextlib
 import ctypes
 import gc
 import os
@@ -136,19 +135,6 @@ class Use:
             self.update(loaded)
             simple.Delete(loaded)
 
-    def errors(self):
-        """A damaged file, and one that is not there."""
-        with open("broken.dump", "w") as out:
-            out.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n"
-                      "ITEM: ATOMS id x y z\n1 0 zero 0\n")
-        for name, told in (("broken.dump", "expected a number, got 'zero'"), ("gone.dump", "No such file")):
-            reader = simple.GranularDumpReader(FileNames=[os.path.abspath(name)])
-            with contextlib.suppress(RuntimeError):
-                self.update(reader)
-                raise AssertionError(name + " was read")
-            assert told in reader.GetPropertyValue("ErrorMessage"), reader.GetPropertyValue("ErrorMessage")
-            simple.Delete(reader)
-
 
 def status():
     """Resident memory in MiB, descriptors, threads."""
@@ -169,7 +155,7 @@ def cost_of_views(use):
 
 
 def main():
-    activities = ["open_and_step", "filters", "look", "write", "state", "errors"]
+    activities = ["open_and_step", "filters", "look", "write", "state"]
     granular.load_plugin(ns=vars(simple))
     use, rounds, grown = Use(), 0, dict.fromkeys(activities, 0.0)
     start = told = time.monotonic()
