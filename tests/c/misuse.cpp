@@ -185,7 +185,8 @@ TEST(CMisuse, ChoicesThatThereAreNot)
   refused_format([](auto& format) { format.dialect = "lammps"; },
     "expected a dialect of Automatic, LIGGGHTS, LAMMPS, got 'lammps'");
   refused_format([](auto& format) { format.numbers = "%d"; }, "got '%d'");
-  refused_format([](auto& format) { format.durable = 3; }, "durable of 0, 1 or 2 (automatic), got 3");
+  refused_format(
+    [](auto& format) { format.durable = 3; }, "durable of 0, 1 or 2 (automatic), got 3");
 }
 
 TEST(CMisuse, ArraysThatCannotBeWritten)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged copies of good files through the VTK readers, all in one process, through the same readers one after the other, as by a user
 who opens many files. Each copy must end within 10 s of processors, in memory of at most 20 times its files and 256 MiB, with valid
-outputs, or empty ones and an error that names the file. Arguments: how many copies of each file (default 2), the seed. A copy depends
+outputs, or empty ones and an error that names the file. Arguments: how many copies of each file (default 4), the seed. A copy depends
 on the seed and its number alone. After a crash or a hang, the file `last` says which copy it was."""
 import ctypes
 import gzip
@@ -194,7 +194,7 @@ def try_copy(readers, files, number, chance):
     return counts
 
 
-def main(copies=2, seed=1):
+def main(copies=4, seed=1):
     ctypes.CDLL(None).mallopt(-8, 1)  # one arena: those of threads reserve addresses
     readers = [Reader(kind) for kind in KINDS]
     files = []
