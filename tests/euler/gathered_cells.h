@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <string>
 
 /// Cells whose values tell whose they are; no two are equal.
 inline granular::EulerCells cells_of_rank(int rank, std::int64_t count, bool stresses = false)
@@ -44,21 +43,6 @@ inline void append(std::vector<double>& to, const std::vector<double>& from)
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// B = [B(0), ..., B(P - 1)], on rank 0.
-inline void check_gathered_buffers(granular::Communicator& ranks)
-{
-  const auto buffer = [](int rank)
-  { return std::vector<double>(static_cast<std::size_t>(9 * count_of_rank(rank)), 1e9 + rank); };
-  const std::vector<double> all =
-    granular::gather_packed(buffer(ranks.rank()), count_of_rank(ranks.rank()), ranks);
-  std::vector<double> expected;
-  for (int rank = 0; ranks.rank() == 0 && rank < ranks.size(); ++rank)
-  {
-    append(expected, buffer(rank));
-  }
-  EXPECT_EQ(all, expected);
-}
-
 inline void check_gathered_cells(granular::Communicator& ranks)
 {
   for (const bool stresses : { false, true })
@@ -77,24 +61,5 @@ inline void check_gathered_cells(granular::Communicator& ranks)
     }
     EXPECT_EQ(all, expected);
   }
-}
-
-/// n_all = 9 N: the last rank has one value too few, and all hear of it.
-inline void check_counts(granular::Communicator& ranks)
-{
-  const int last = ranks.size() - 1;
-  const std::vector<double> own(ranks.rank() == last ? 17 : 18);
-  std::string said;
-  try
-  {
-    granular::gather_packed(own, 2, ranks);
-  }
-  catch (const granular::FormatError& error)
-  {
-    said = error.what();
-  }
-  const std::string expected =
-    "expected 9 values for each of 2 cells of process " + std::to_string(last) + ", got 17";
-  EXPECT_EQ(said.substr(0, expected.size()), expected);
 }
 #endif

@@ -16,6 +16,9 @@ namespace granular
 {
 namespace
 {
+/// Of EulerCells: x y z u v w phi r p.
+constexpr double values_of_cell = 9;
+
 /// The sums of a frame, and what TimeAverage keeps of a cell.
 constexpr double values_of_time_average = 6 + 44;
 
@@ -36,7 +39,7 @@ void check_memory(const EulerAverageRequest& request)
 {
   const auto& [nx, ny, nz] = request.grid.counts;
   const auto cells = static_cast<double>(request.grid.size());
-  const double values = static_cast<double>(values_of_cell) +
+  const double values = values_of_cell +
     (request.arrays.stress.empty() && !request.tensors ? 0 : 6) + fields_of(request.fields) +
     (request.keep_sums ? values_of_time_average : 0);
   const double bytes = 8 *

@@ -92,21 +92,6 @@ struct EulerArray
 /// and tau (xy xz yz) of its fork PFM.
 std::span<const EulerArray> euler_arrays() noexcept;
 
-/// Values of a packed cell: x y z u v w phi r p.
-inline constexpr std::int64_t values_of_cell = 9;
-
-/// Packs the cells of a process: 9 values for each, x y z u v w phi r p, so that with i and j from 1 value j of cell i is
-/// buffer[9 (i - 1) + j - 1]. Stresses are left out. The buffer has 9 count() values, else it throws std::logic_error.
-void pack_cells(const EulerCells& cells, std::span<double> buffer);
-
-/// The reverse; the size of the buffer is a multiple of 9, else it throws FormatError.
-EulerCells unpack_cells(std::span<const double> buffer);
-
-/// The buffers of all processes one after the other, in the order of their ranks, on rank 0; nothing on others.
-/// Throws FormatError, on all, if there are not 9 values for each cell that the ranks counted. Collective.
-std::vector<double> gather_packed(
-  std::span<const double> own, std::int64_t own_cells, Communicator& ranks);
-
 /// The cells of all processes, with stresses where all processes that have cells have them, on rank 0; none on
 /// others. Collective.
 EulerCells gather_cells(const EulerCells& own, Communicator& ranks);
