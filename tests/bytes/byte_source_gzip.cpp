@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source.h"
-#include "granular/bytes/byte_source_segments.h"
 
 #include "../support/byte_source_packing.h"
 #include "granular/common/error.h"

@@ -38,8 +38,8 @@ _OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
     (_OPERATING_SYSTEM, r"core/granular/bytes/((byte_(source(_\w+)?|sink)|locked_file)\.cpp|system_calls\.h)"),
     (r"glob\.h", r"core/granular/bytes/find_files\.cpp"),
-    (r"zlib\.h", r"core/granular/bytes/(byte_source_gzip|compression|inflate_zlib)\.cpp"),
-    (r"isa-l/\w+\.h", r"core/granular/bytes/inflate_isal\.cpp"),
+    (r"zlib\.h", r"core/granular/bytes/(byte_source_gzip|compression|inflate)\.cpp"),
+    (r"isa-l/\w+\.h", r"core/granular/bytes/inflate\.cpp"),
     (r"(zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source_zstd|compression)\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
     (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),

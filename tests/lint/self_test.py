@@ -141,8 +141,7 @@ class Layering(unittest.TestCase):
             core__granular__bytes__byte_source_dot_cpp="#include <unistd.h>\n#include <fcntl.h>\n",
             core__granular__bytes__byte_source_zstd_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
             core__granular__bytes__byte_source_zstd_dot_h="#include <zstd.h>\n",
-            core__granular__bytes__inflate_zlib_dot_cpp="#include <zlib.h>\n#include <zstd.h>\n",
-            core__granular__bytes__inflate_isal_dot_cpp="#include <isa-l/crc.h>\n",
+            core__granular__bytes__inflate_dot_cpp="#include <zlib.h>\n#include <zstd.h>\n#include <isa-l/crc.h>\n",
             core__granular__bytes__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
             core__granular__bytes__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
             core__granular__memory__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
@@ -160,7 +159,7 @@ class Layering(unittest.TestCase):
                 "core/granular/bytes/a.h:3", "core/granular/bytes/a.h:5", "core/granular/bytes/a.h:6",
                 "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_zstd.cpp:2",
                 "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/compression.cpp:2",
-                "core/granular/bytes/inflate_zlib.cpp:2", "core/granular/dump/d.cpp:1",
+                "core/granular/bytes/inflate.cpp:2", "core/granular/dump/d.cpp:1",
                 "core/granular/dump/read/r.cpp:2", "core/granular/dump/read/r.cpp:3",
                 "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared by byte_source_gzip.cpp and inflate_*.cpp; private to these files.
+// Private to byte_source_gzip.cpp and byte_source_unpack.cpp.
 #ifndef granular_bytes_inflate_h
 #define granular_bytes_inflate_h
 
@@ -55,8 +55,5 @@ struct Inflation
 /// not, as long as no sum is compared: ISA-L takes codes that are incomplete but not used. If data end within a block, up to three of
 /// the last bytes may be held back, and damage in its header may be seen or not.
 std::span<const Inflation> inflations() noexcept;
-
-std::unique_ptr<Inflate> make_zlib_inflate();
-std::unique_ptr<Inflate> make_isal_inflate();
 }
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/file_index.h"
 
-#include "granular/bytes/byte_source_segments.h"
 #include "granular/common/hash.h"
 
 #include <algorithm>
