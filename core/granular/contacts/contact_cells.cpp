@@ -54,7 +54,7 @@ public:
     , progress_(progress)
     , averages_(averages)
     , cells_(request.grid, request.cells, box)
-    , blocks_(request.grid, ranks, executor, progress_)
+    , blocks_(request.grid, request.wanted, ranks, executor, progress_)
   {
   }
 
@@ -221,8 +221,8 @@ private:
         }
       },
       progress_);
-    blocks_.set_rows(BlockRows::sorted(
-      entries, static_cast<std::int64_t>(rows_of_chunk), blocks_.blocks().size()));
+    blocks_.set_rows(
+      BlockRows::sorted(entries, static_cast<std::int64_t>(rows_of_chunk), blocks_.blocks()));
   }
 
   template <class MakeTerms>
@@ -232,7 +232,7 @@ private:
     blocks_.add(group, scale, batches,
       [&](const BlockSums::Part& part, std::size_t, Batch& batch, std::int64_t* sums)
       {
-        const CellRange range = blocks_.blocks().range(part.block);
+        const CellRange range = blocks_.range(part.block);
         for (std::int64_t first = part.first; first < part.last;)
         {
           const std::span<const std::int64_t> rows =
@@ -278,16 +278,9 @@ private:
   void finish_stress(const BlockSums::Group& group)
   {
     EulerSums& sums_kept = averages_.sums;
-    blocks_.each_cell(group, stresses_,
-      [&](std::size_t, const std::array<std::int64_t, 3>& x, double volume,
-        const SumScale::Terms& sums)
+    blocks_.each_wanted(group, stresses_,
+      [&](std::size_t, std::size_t to, double volume, const SumScale::Terms& sums)
       {
-        const std::int64_t place = request_.wanted.place(request_.grid, x);
-        if (place < 0)
-        {
-          return;
-        }
-        const auto to = static_cast<std::size_t>(place);
         const double share = averages_.sums.share.empty() ? 0 : averages_.sums.share[to];
         averages_.store_contacts(to, sums.data(), share, volume);
         if (request_.keep_sums)
@@ -304,19 +297,13 @@ private:
 
   void finish_normals(const BlockSums::Group& group)
   {
-    blocks_.each_cell(group, normals_,
-      [&](std::size_t, const std::array<std::int64_t, 3>& x, double, const SumScale::Terms& sums)
+    blocks_.each_wanted(group, normals_,
+      [&](std::size_t, std::size_t to, double, const SumScale::Terms& sums)
       {
-        const std::int64_t place = request_.wanted.place(request_.grid, x);
-        if (place < 0)
-        {
-          return;
-        }
-        const auto to = static_cast<std::size_t>(place);
         averages_.store_fabric(to, sums.data(), counted_[to]);
         if (request_.keep_sums)
         {
-          std::copy_n(sums.begin(), 6, averages_.sums.normals.begin() + 6 * place);
+          std::copy_n(sums.begin(), 6, averages_.sums.normals.data() + 6 * to);
         }
       });
   }

@@ -16,7 +16,7 @@ namespace granular
 {
 namespace
 {
-/// Of EulerCells: x y z u v w phi r p.
+/// The values of EulerCells in a cell: x y z u v w phi r p.
 constexpr double values_of_cell = 9;
 
 /// The sums of a frame, and what TimeAverage keeps of a cell.

@@ -71,7 +71,7 @@ AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources
   , progress_(progress)
   , grains_(frame, sources)
   , cells_(request.grid, request.cells, frame.has_box ? &frame.header.box : nullptr)
-  , blocks_(request.grid, ranks, executor, progress_)
+  , blocks_(request.grid, request.wanted, ranks, executor, progress_)
   , stress_(!request.arrays.stress.empty())
   , tensors_(stress_ || request.tensors)
 {
@@ -110,7 +110,7 @@ void AveragePasses::sum_group(const Group& group)
           grains.radius[i] * batch.share[n], batch.volume[n], grains.speed(i, largest_mass_) };
       }
     });
-  if (blocks_.blocks().size() == 1) // nobody looked where grains are
+  if (blocks_.blocks() == 1) // nobody looked where grains are
   {
     ranks_.sum({ &outside_, 1 });
     result_.outside = outside_;
@@ -173,7 +173,7 @@ template <class Take>
 void AveragePasses::each_batch(
   Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take)
 {
-  const CellRange range = blocks_.blocks().range(part.block);
+  const CellRange range = blocks_.range(part.block);
   const GrainBlock& grains = batch.grains;
   const auto add = [&](std::size_t grain, std::int64_t cell, double share, double volume)
   {
@@ -242,7 +242,7 @@ template <class MakeTerms>
 void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& make_terms)
 {
   const SumScale& scale = pass == Pass::Means ? sums_ : stresses_;
-  const std::int64_t cells = blocks_.blocks().largest();
+  const std::int64_t cells = blocks_.largest();
   if (pass == Pass::Means)
   {
     kept_.assign(group.tasks(), { .most = most_kept / group.tasks() });
@@ -267,13 +267,11 @@ void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& m
 
 void AveragePasses::finish_means(const Group& group)
 {
-  means_.resize(static_cast<std::size_t>(group.blocks() * blocks_.blocks().largest()));
+  means_.resize(static_cast<std::size_t>(group.blocks() * blocks_.largest()));
   masses_.resize(request_.fields.temperature ? means_.size() : 0);
   blocks_.each_cell(group, sums_,
-    [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume,
-      const SumScale::Terms& sums)
+    [&](std::size_t cell, std::int64_t place, double volume, const SumScale::Terms& sums)
     {
-      const std::int64_t place = request_.wanted.place(request_.grid, x);
       auto& [mean, scale] = means_[cell];
       scale = this->stress_scale(sums);
       if (request_.fields.temperature)
@@ -309,20 +307,14 @@ double AveragePasses::stress_scale(const SumScale::Terms& sums) const noexcept
 
 void AveragePasses::finish_stress(const Group& group)
 {
-  blocks_.each_cell(group, stresses_,
-    [&](std::size_t cell, const std::array<std::int64_t, 3>& x, double volume, SumScale::Terms sums)
+  blocks_.each_wanted(group, stresses_,
+    [&](std::size_t cell, std::size_t place, double volume, SumScale::Terms sums)
     {
-      const std::int64_t place = request_.wanted.place(request_.grid, x);
-      if (place < 0)
-      {
-        return;
-      }
       for (double& sum : sums)
       {
         sum /= means_[cell].scale;
       }
-      result_.store_fluctuations(
-        static_cast<std::size_t>(place), sums.data(), masses_.empty() ? 0 : masses_[cell], volume);
+      result_.store_fluctuations(place, sums.data(), masses_.empty() ? 0 : masses_[cell], volume);
     });
 }
 }

@@ -69,7 +69,7 @@ void AveragePasses::scan()
 void AveragePasses::locate()
 {
   const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-  std::vector<std::vector<BlockRows::Entry>> entries(blocks_.blocks().size() > 1 ? chunks : 0);
+  std::vector<std::vector<BlockRows::Entry>> entries(blocks_.blocks() > 1 ? chunks : 0);
   std::vector<std::int64_t> counts(executor_.workers(entries.size()));
   this->each_block(entries.size(),
     [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
@@ -87,8 +87,8 @@ void AveragePasses::locate()
       }
     });
   result_.outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-  blocks_.set_rows(blocks_.blocks().size() > 1
-      ? BlockRows::sorted(entries, rows_of_chunk, blocks_.blocks().size())
+  blocks_.set_rows(blocks_.blocks() > 1
+      ? BlockRows::sorted(entries, rows_of_chunk, blocks_.blocks())
       : BlockRows::all(frame_.rows));
   found_.resize(cells_.is_direct() ? static_cast<std::size_t>(blocks_.rows().size()) : 0);
   ranks_.sum({ &result_.outside, 1 });

@@ -3,6 +3,7 @@
 #define granular_euler_block_sums_h
 
 #include "granular/common/progress.h"
+#include "granular/euler/average.h"
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/grid/euler_grid.h"
 #include "granular/parallel/communicator.h"
@@ -19,52 +20,14 @@
 
 namespace granular
 {
-/// A grid divided into blocks of cells whose sums fit into the cache of a core.
-class SumBlocks
+/// Sums in the cells of a grid over rows of all ranks. The grid is divided into blocks of cells whose sums fit into the cache of
+/// a core, some at a time: all ranks work on the same blocks at the same time, and add up the integers of their sums, so that
+/// order, threads and ranks cannot matter.
+class BlockSums
 {
 public:
   static constexpr std::int64_t most_cells_of_block = 4096; ///< fits into 16 bits
 
-  explicit SumBlocks(const std::array<std::int64_t, 3>& cells) noexcept;
-
-  std::int64_t size() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
-
-  /// Returns the number of cells of the largest block.
-  std::int64_t largest() const noexcept { return largest_; }
-
-  CellRange range(std::int64_t block) const noexcept;
-
-  /// Calls visit(block) for each block that contains cells of the range.
-  template <class Visit>
-  void each(const CellRange& range, const Visit& visit) const
-  {
-    CellRange blocks;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (range.first[axis] >= range.last[axis])
-      {
-        return;
-      }
-      blocks.first[axis] = range.first[axis] >> shifts_[axis];
-      blocks.last[axis] = ((range.last[axis] - 1) >> shifts_[axis]) + 1;
-    }
-    blocks.each([&](const std::array<std::int64_t, 3>& at)
-      { visit((at[2] * blocks_[1] + at[1]) * blocks_[0] + at[0]); });
-  }
-
-private:
-  std::array<std::int64_t, 3> cells_;
-  std::array<int, 3> shifts_ = {}; ///< edges are powers of two
-  std::array<std::int64_t, 3> edges_ = {};
-  std::array<std::int64_t, 3> blocks_ = {};
-  std::int64_t largest_ = 1;
-};
-
-/// Sums in the cells of a grid over rows of all ranks, some blocks of cells at a time: all ranks work on the same blocks at
-/// the same time, and add up the integers of their sums, so that order, threads and ranks cannot matter.
-class BlockSums
-{
-public:
   /// Bytes of the sums of a group. Larger groups mean fewer reductions over ranks.
   static constexpr std::int64_t bytes_of_group = std::int64_t{ 64 } << 20;
 
@@ -88,14 +51,21 @@ public:
     std::int64_t place;
   };
 
-  BlockSums(
-    const EulerGrid& grid, Communicator& ranks, const Executor& executor, Progress& progress);
+  /// grid and wanted must stay.
+  BlockSums(const EulerGrid& grid, const WantedCells& wanted, Communicator& ranks,
+    const Executor& executor, Progress& progress);
 
-  const SumBlocks& blocks() const noexcept { return blocks_; }
+  /// Returns the number of blocks.
+  std::int64_t blocks() const noexcept { return blocks_[0] * blocks_[1] * blocks_[2]; }
+
+  /// Returns the number of cells of the largest block.
+  std::int64_t largest() const noexcept { return largest_; }
+
+  CellRange range(std::int64_t block) const noexcept;
   const BlockRows& rows() const noexcept { return rows_; }
 
-  /// Adds an entry of a row for each block with cells of the ranges that each_range(visit) visits, the images of one thing. A
-  /// block has one entry, though several images may reach it. Returns true if there are any.
+  /// Adds an entry of a row for each block with cells of the ranges that each_range(visit) visits, the images of one thing; none
+  /// of these is empty. A block has one entry, though several images may reach it. Returns true if there are any.
   template <class EachRange>
   bool add_entries(
     std::uint32_t row, std::vector<BlockRows::Entry>& entries, const EachRange& each_range) const
@@ -105,9 +75,16 @@ public:
       [&](const CellRange& range)
       {
         const auto own = static_cast<std::ptrdiff_t>(entries.size());
-        blocks_.each(range,
-          [&](std::int64_t block)
+        CellRange blocks;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          blocks.first[axis] = range.first[axis] >> shifts_[axis];
+          blocks.last[axis] = ((range.last[axis] - 1) >> shifts_[axis]) + 1;
+        }
+        blocks.each(
+          [&](const std::array<std::int64_t, 3>& at)
           {
+            const std::int64_t block = (at[2] * blocks_[1] + at[1]) * blocks_[0] + at[0];
             const BlockRows::Entry entry = { static_cast<std::uint32_t>(block), row };
             const auto end = entries.begin() + own; // a range has a block once
             if (std::find(entries.begin() + first, end, entry) == end)
@@ -131,7 +108,7 @@ public:
   template <class Room, class Work>
   void add(const Group& group, const SumScale& scale, std::vector<Room>& rooms, const Work& work)
   {
-    const std::int64_t block_size = blocks_.largest() * static_cast<std::int64_t>(scale.size());
+    const std::int64_t block_size = largest_ * static_cast<std::int64_t>(scale.size());
     const std::int64_t part_size = group.blocks() * block_size;
     integers_.resize(static_cast<std::size_t>(group.parts * part_size));
     executor_.parallel_for(
@@ -156,12 +133,12 @@ public:
     ranks_.sum({ integers_.data(), static_cast<std::size_t>(part_size) });
   }
 
-  /// Calls take(number of the cell in the group, its place in the grid, its volume, its sums) for each cell of the blocks that
-  /// have rows.
+  /// Calls take(number of the cell in the group, its place among the wanted ones or -1, its volume, its sums) for each cell of the
+  /// blocks that have rows.
   template <class Take>
   void each_cell(const Group& group, const SumScale& scale, const Take& take) const
   {
-    const auto largest = static_cast<std::size_t>(blocks_.largest());
+    const auto largest = static_cast<std::size_t>(largest_);
     executor_.parallel_for(
       static_cast<std::size_t>(group.blocks()),
       [&](std::size_t place, std::size_t)
@@ -172,20 +149,39 @@ public:
           return;
         }
         std::size_t cell = place * largest;
-        blocks_.range(block).each(
+        this->range(block).each(
           [&](const std::array<std::int64_t, 3>& x)
           {
-            take(cell, x, this->volume_of(x), scale.values(integers_.data() + cell * scale.size()));
+            take(cell, wanted_.place(grid_, x), this->volume_of(x),
+              scale.values(integers_.data() + cell * scale.size()));
             ++cell;
           });
       },
       progress_);
   }
 
+  /// The same for the wanted ones.
+  template <class Take>
+  void each_wanted(const Group& group, const SumScale& scale, const Take& take) const
+  {
+    this->each_cell(group, scale,
+      [&](std::size_t cell, std::int64_t place, double volume, const SumScale::Terms& sums)
+      {
+        if (place >= 0)
+        {
+          take(cell, static_cast<std::size_t>(place), volume, sums);
+        }
+      });
+  }
+
   double volume_of(const std::array<std::int64_t, 3>& cell) const noexcept;
 
 private:
-  SumBlocks blocks_;
+  const EulerGrid& grid_;
+  const WantedCells& wanted_;
+  std::array<int, 3> shifts_ = {}; ///< sizes of blocks are powers of two
+  std::array<std::int64_t, 3> blocks_ = {};
+  std::int64_t largest_ = 1;
   Communicator& ranks_;
   const Executor& executor_;
   Progress& progress_;
