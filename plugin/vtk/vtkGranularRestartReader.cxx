@@ -3,7 +3,6 @@
 
 #include "private/readers/series_reader.h"
 
-#include "granular/restart/history_layout.h"
 #include "granular/restart/restart_file.h"
 #include "granular/restart/restart_reader.h"
 

@@ -3,7 +3,6 @@
 #include "restart_runs.h"
 
 #include "granular/local/local_columns.h"
-#include "granular/restart/history_layout.h"
 
 #include <gtest/gtest.h>
 
@@ -204,9 +203,9 @@ TEST(RestartBonds, Layouts)
 {
   const auto last = [](int layout, std::int64_t values, std::string_view version = "LIGGGHTS 3.8")
   {
-    const auto names = granular::history_columns(layout, version, values);
-    EXPECT_EQ(static_cast<std::int64_t>(names.size()), values);
-    return names.empty() ? "" : names.back();
+    const auto columns = granular::make_bond_schema(layout, version, values).columns();
+    EXPECT_EQ(static_cast<std::int64_t>(columns.size()), 3 + values);
+    return columns.back().name;
   };
   EXPECT_EQ(last(-1, 12), "torque_tangentialz");
   EXPECT_EQ(last(-1, 13), "equilibrium_length");
@@ -219,12 +218,14 @@ TEST(RestartBonds, Layouts)
   EXPECT_EQ(last(0, 14), "history14");
   EXPECT_EQ(last(-1, 2), "history2");
   EXPECT_EQ(last(99, 12), "history12");
-  EXPECT_EQ(last(-1, 0), "");
-  EXPECT_EQ(granular::history_layouts().size(), 4u);
-  for (const granular::HistoryLayout& layout : granular::history_layouts())
+  EXPECT_EQ(last(-1, 0), "btype");
+  for (const auto& [layout, values] :
+    std::vector<std::pair<int, std::int64_t>>{ { 0, 12 }, { 1, 13 }, { 2, 13 }, { 3, 14 } })
   {
-    for (const std::string_view name : layout.columns)
+    const auto columns = granular::make_bond_schema(layout, {}, values).columns();
+    for (std::size_t i = 3; i < columns.size(); ++i)
     {
+      const std::string& name = columns[i].name;
       const granular::KnownColumn* const known =
         granular::find_known_column(name, granular::local_known_columns());
       ASSERT_NE(known, nullptr) << name;

@@ -4,14 +4,15 @@
 #include "granular/common/shares.h"
 #include "granular/local/local_columns.h"
 #include "granular/restart/decode_records.h"
-#include "granular/restart/history_layout.h"
 #include "granular/restart/record_plan.h"
 #include "granular/restart/record_scan.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,51 @@ namespace granular
 {
 namespace
 {
+/// The history values of a bond, by program.
+struct HistoryLayout
+{
+  std::string_view name; ///< of the program
+  std::string_view
+    version; ///< a word in the header of its files that no others have; empty: there is none
+  std::span<const std::string_view> columns; ///< in turn, as make_local_schema takes them
+
+  /// Values from here on have no sign, in either copy of the bond.
+  static constexpr std::size_t unsigned_from = 12;
+};
+
+/// Names that all have, then the length, then the damage. Bonds act on their first particle (bond_gran.cpp of each program).
+constexpr std::string_view pfm[] = { "force_normalx", "force_normaly", "force_normalz",
+  "force_tangentialx", "force_tangentialy", "force_tangentialz", "torque_normalx", "torque_normaly",
+  "torque_normalz", "torque_tangentialx", "torque_tangentialy", "torque_tangentialz",
+  "initial_length" };
+
+constexpr std::string_view fibers[] = { pfm[0], pfm[1], pfm[2], pfm[3], pfm[4], pfm[5], pfm[6],
+  pfm[7], pfm[8], pfm[9], pfm[10], pfm[11], "equilibrium_length", "damage" };
+
+constexpr HistoryLayout layouts[] = {
+  { "WITH-BONDS", "", std::span(pfm).first(12) },
+  { "PFM", "LIGGGHTS-PFM", pfm },
+  { "FlexibleFibers", "", std::span(fibers).first(13) },
+  { "FlexibleFibersDamage", "", fibers },
+};
+
+/// Returns the layout for a number of values, by its place in the table; version: of the program, from the file's header.
+/// Null: there is none, or the layout has another number of values.
+const HistoryLayout* find_history_layout(
+  int layout, std::string_view version, std::int64_t values) noexcept
+{
+  const HistoryLayout* found = nullptr;
+  int place = 0;
+  for (const HistoryLayout& candidate : layouts)
+  {
+    const bool asked = layout == automatic_history || layout == place++;
+    const bool says_so =
+      found && !found->version.empty() && version.find(found->version) != version.npos;
+    found = asked && std::ssize(candidate.columns) == values && !says_so ? &candidate : found;
+  }
+  return found;
+}
+
 void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
 {
   const std::pair<std::int64_t, std::string> said[] = {
@@ -42,13 +88,12 @@ void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
 /// A layout that was asked for, and is not that of the file.
 void check_layout(int asked, std::int64_t values, const Where& where, Notices& notices)
 {
-  const auto layouts = history_layouts();
-  if (asked < 0 || static_cast<std::size_t>(asked) >= layouts.size() || values == 0)
+  if (asked < 0 || asked >= std::ssize(layouts) || values == 0)
   {
     return;
   }
-  const HistoryLayout& layout = layouts[static_cast<std::size_t>(asked)];
-  if (static_cast<std::int64_t>(layout.columns.size()) != values)
+  const HistoryLayout& layout = layouts[asked];
+  if (std::ssize(layout.columns) != values)
   {
     notices.push_back({ where,
       "expected " + std::to_string(layout.columns.size()) + " history values of a bond, as " +
@@ -266,8 +311,16 @@ ColumnSchema make_bond_schema(
   int history_layout, std::string_view version, std::int64_t history_values)
 {
   std::vector<std::string> names = { "id1", "id2", "btype" };
-  const auto history = history_columns(history_layout, version, history_values);
-  names.insert(names.end(), history.begin(), history.end());
+  if (const HistoryLayout* const found =
+        find_history_layout(history_layout, version, history_values))
+  {
+    names.insert(names.end(), found->columns.begin(), found->columns.end());
+    return make_local_schema(names);
+  }
+  for (std::int64_t i = 1; i <= history_values; ++i)
+  {
+    names.push_back("history" + std::to_string(i));
+  }
   return make_local_schema(names);
 }
 

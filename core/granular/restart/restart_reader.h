@@ -3,7 +3,6 @@
 #define granular_restart_restart_reader_h
 
 #include "granular/local/local_reader.h"
-#include "granular/restart/history_layout.h"
 #include "granular/restart/restart_layout.h"
 
 #include <cstdint>
@@ -27,7 +26,16 @@ struct RestartColumns
 RestartColumns find_restart_columns(
   const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
 
-/// Returns the arrays of bonds: id1 id2 btype and the history, see history_columns.
+/// Layouts of the history values of a bond have numbers: 0: WITH-BONDS (12 values), 1: PFM (13), 2: Flexible_Fibers until 2021
+/// (13), 3: Flexible_Fibers and SEAICE (14).
+///
+/// Instead of a number: the layout with as many values, of two that whose word is in the version, else the last.
+inline constexpr int automatic_history = -1;
+/// Instead of a number: history1, history2, ...
+inline constexpr int numbered_history = -2;
+
+/// Returns the arrays of bonds: id1 id2 btype and the history, which is numbered where the layout has another number of values.
+/// version: of the program, from the file's header.
 ColumnSchema make_bond_schema(
   int history_layout, std::string_view version, std::int64_t history_values);
 
