@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -56,28 +55,6 @@ WriteOptions options_of(const granular_format& format, const InputFiles& inputs)
     .durable = static_cast<Durability>(format.durable),
     .inputs = &inputs };
 }
-
-// ---- rows: particles, contacts and bonds -------------------------------------------------------
-class RowsWriter final : public granular_writer
-{
-public:
-  RowsWriter(RowKind of, const std::string& to, DumpFormat form, const granular_format& format)
-    : granular_writer(of, to, format)
-    , writer_(to, std::move(form), options_of(format, inputs), alone_)
-  {
-  }
-
-  void write(const FrameView& frame, Notices& notices, Progress& progress) override
-  {
-    writer_.write(frame, notices, progress);
-  }
-
-  void finish() override { writer_.finish(); }
-
-private:
-  SerialCommunicator alone_;
-  DumpWriter writer_;
-};
 
 // ---- cells and subdomains: a text that is made at once -----------------------------------------
 /// The values of an array as doubles, so many in each row.
@@ -155,36 +132,14 @@ Decomposition decomposition_of(const FrameView& frame)
   return all;
 }
 
-class TextWriter final : public granular_writer
-{
-public:
-  using Encode = std::function<std::string(const FrameView&, Notices&, Progress&)>;
-
-  TextWriter(RowKind of, const std::string& to, bool holds_many, Encode encode,
-    const granular_format& format)
-    : granular_writer(of, to, format)
-    , encode_(std::move(encode))
-    , writer_(to, holds_many, options_of(format, inputs), alone_)
-  {
-  }
-
-  void write(const FrameView& frame, Notices& notices, Progress& progress) override
-  {
-    writer_.write(
-      frame.header.timestep, [&](Notices& own) { return encode_(frame, own, progress); }, notices);
-  }
-
-  void finish() override { writer_.finish(); }
-
-private:
-  Encode encode_;
-  SerialCommunicator alone_;
-  WholeWriter writer_;
-};
-
 // ---- the styles --------------------------------------------------------------------------------
-using Create = std::unique_ptr<granular_writer> (*)(
-  const std::string& path, const granular_format& format);
+using Writer = std::unique_ptr<granular_writer>;
+
+Writer blank_writer(RowKind kind, const std::string& path, const granular_format& format)
+{
+  return Writer(
+    new granular_writer{ kind, path, Caller(format.progress, format.notice, format.user) });
+}
 
 DumpFormat rows_format(const std::string& path, DumpStyle style, const granular_format& given)
 {
@@ -204,49 +159,66 @@ DumpFormat rows_format(const std::string& path, DumpStyle style, const granular_
 }
 
 template <DumpStyle style>
-std::unique_ptr<granular_writer> create_rows(const std::string& path, const granular_format& format)
+Writer create_rows(const std::string& path, const granular_format& format)
 {
-  return std::make_unique<RowsWriter>(
-    style == DumpStyle::Local ? RowKind::Lines : RowKind::Particles, path,
-    rows_format(path, style, format), format);
+  Writer made =
+    blank_writer(style == DumpStyle::Local ? RowKind::Lines : RowKind::Particles, path, format);
+  DumpFormat form = rows_format(path, style, format);
+  const auto rows = std::make_shared<DumpWriter>(
+    path, std::move(form), options_of(format, made->inputs), made->alone);
+  made->write = [rows](const FrameView& frame, Notices& notices, Progress& progress)
+  { rows->write(frame, notices, progress); };
+  made->finish = [rows] { rows->finish(); };
+  return made;
 }
 
-std::unique_ptr<granular_writer> create_cells(
-  const std::string& path, const granular_format& format)
+/// encode: returns the text of a frame.
+template <class Encode>
+Writer create_text(RowKind kind, const std::string& path, const granular_format& format,
+  bool holds_many, Encode encode)
+{
+  Writer made = blank_writer(kind, path, format);
+  const auto text =
+    std::make_shared<WholeWriter>(path, holds_many, options_of(format, made->inputs), made->alone);
+  made->write = [text, encode](const FrameView& frame, Notices& notices, Progress& progress)
+  {
+    text->write(
+      frame.header.timestep, [&](Notices& own) { return encode(frame, own, progress); }, notices);
+  };
+  made->finish = [text] { text->finish(); };
+  return made;
+}
+
+Writer create_cells(const std::string& path, const granular_format& format)
 {
   constexpr std::array<std::pair<const char*, EulerDialect>, 2> dialects = {
     { { "LIGGGHTS", EulerDialect::Liggghts }, { "Wide", EulerDialect::Wide } }
   };
   const EulerDialect dialect =
     choose("dialect", format.dialect, dialects).value_or(EulerDialect::Automatic);
-  return std::make_unique<TextWriter>(
-    RowKind::Cells, path, false,
+  return create_text(RowKind::Cells, path, format, false,
     [dialect](const FrameView& frame, Notices& notices, Progress& progress)
-    { return text_of_cells(frame, dialect, notices, progress); },
-    format);
+    { return text_of_cells(frame, dialect, notices, progress); });
 }
 
-std::unique_ptr<granular_writer> create_subdomains(
-  const std::string& path, const granular_format& format)
+Writer create_subdomains(const std::string& path, const granular_format& format)
 {
   constexpr std::array<std::pair<const char*, bool>, 2> dialects = { { { "INL", false },
     { "PUBLIC", true } } };
   const bool is_public = choose("dialect", format.dialect, dialects).value_or(false);
-  return std::make_unique<TextWriter>(
-    RowKind::Subdomains, path, is_public,
+  return create_text(RowKind::Subdomains, path, format, is_public,
     [is_public](const FrameView& frame, Notices& notices, Progress& progress)
     {
       const Decomposition all = decomposition_of(frame);
       return is_public ? encode_grid(all, notices) : encode_voxels(all, progress);
-    },
-    format);
+    });
 }
 
 struct Style
 {
   std::string_view name;
   std::string_view ending; ///< of files that have this style unless another is given
-  Create create;
+  Writer (*create)(const std::string& path, const granular_format& format);
 };
 
 constexpr Style styles[] = {
@@ -289,10 +261,10 @@ std::unique_ptr<granular_writer> create_writer(
 
 void granular_writer::add_inputs(const granular_frame& frame)
 {
-  if (frame.index && frame.index != index_)
+  if (frame.index && frame.index != index)
   {
     inputs.add(*frame.index);
-    index_ = frame.index;
+    index = frame.index;
   }
 }
 

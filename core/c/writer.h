@@ -5,27 +5,19 @@
 #include "frame.h"
 #include "run.h"
 
-#include "granular/common/progress.h"
 #include "granular/frames/input_files.h"
+#include "granular/parallel/communicator.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 
 /// A file that is being written. It appears when finish() is done; without it the old file is untouched.
 struct granular_writer
 {
-  granular_writer(const granular_writer&) = delete;
-  granular_writer& operator=(const granular_writer&) = delete;
-  virtual ~granular_writer() = default;
-
-  virtual void write(
-    const granular::FrameView& frame, granular::Notices& notices, granular::Progress& progress) = 0;
-
   /// Throws BadArgument unless at least one frame was written, and all of them whole.
   void expect_frames() const;
-  virtual void finish() = 0;
 
   /// Adds the files that a frame comes from to those that are read meanwhile.
   void add_inputs(const granular_frame& frame);
@@ -35,19 +27,14 @@ struct granular_writer
   granular_c::Caller caller;
   std::int64_t frames = 0; ///< that were begun
   bool failed = false;     ///< in one of them
+  granular::InputFiles inputs = {};
+  std::shared_ptr<const granular::RunIndex> index = {}; ///< that was added to inputs last
+  granular::SerialCommunicator alone = {};
 
-protected:
-  granular_writer(granular_c::RowKind of, std::string to, const granular_format& format)
-    : kind(of)
-    , path(std::move(to))
-    , caller(format.progress, format.notice, format.user)
-  {
-  }
-
-  granular::InputFiles inputs;
-
-private:
-  std::shared_ptr<const granular::RunIndex> index_; ///< that was added last
+  // of the core's writer, which refers to what stands above
+  std::function<void(const granular::FrameView&, granular::Notices&, granular::Progress&)>
+    write = {};
+  std::function<void()> finish = {};
 };
 
 namespace granular_c
