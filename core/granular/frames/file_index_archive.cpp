@@ -11,20 +11,6 @@ namespace granular
 {
 namespace
 {
-/// A frame as it is sent.
-struct FrameRecord
-{
-  std::int64_t timestep;
-  std::int64_t rows;
-  std::int64_t offset;
-  std::int64_t end;
-  std::int64_t line;
-  double time;
-  std::uint64_t shape;
-  std::uint64_t kind; ///< index into the kinds
-};
-static_assert(sizeof(FrameRecord) == 64);
-
 template <typename Archive, typename Points>
 void visit_points(Archive& archive, Points& all)
 {
@@ -41,11 +27,23 @@ void visit_points(Archive& archive, Points& all)
     });
 }
 
-/// All of a file but its frames.
-template <typename Archive, typename File>
-void visit_file(Archive& archive, File& file)
+/// All of a frame but its kind.
+template <typename Archive, typename Frame>
+void visit_frame(Archive& archive, Frame& frame)
 {
-  const auto notice = [&](auto& said) { pass(archive, said); };
+  archive.number(frame.timestep);
+  archive.number(frame.rows);
+  archive.number(frame.offset);
+  archive.number(frame.end);
+  archive.number(frame.line);
+  archive.number(frame.time);
+  archive.number(frame.shape);
+}
+
+/// All of a file; visit_kind: for the kind of each frame.
+template <typename Archive, typename File, typename VisitKind>
+void visit_file(Archive& archive, File& file, const VisitKind& visit_kind)
+{
   const auto known = [&](auto& one)
   {
     archive.text(one.path);
@@ -57,13 +55,29 @@ void visit_file(Archive& archive, File& file)
   archive.number(file.resume_line);
   archive.text(file.units);
   archive.text(file.unchecked);
-  archive.list(file.notices, notice);
-  archive.perhaps(file.defect, notice);
+  pass(archive, file.notices);
+  archive.perhaps(file.defect, [&](auto& said) { pass(archive, said); });
   archive.flag(file.unnamed);
   archive.flag(file.compressed);
-  archive.list(file.column_names, [&](auto& name) { archive.text(name); });
+  pass(archive, file.column_names);
   archive.list(file.beside, known);
   archive.perhaps(file.points, [&](auto& points) { visit_points(archive, points); });
+  archive.list(file.frames,
+    [&](auto& frame)
+    {
+      visit_frame(archive, frame);
+      visit_kind(frame.kind);
+    });
+}
+
+/// All of a kind but its columns.
+template <typename Archive, typename Kind>
+void visit_kind(Archive& archive, Kind& kind)
+{
+  archive.text(kind.units);
+  archive.number(kind.layout);
+  archive.flag(kind.named);
+  archive.flag(kind.guessed);
 }
 
 using KindList = std::vector<const FrameKind*>;
@@ -84,56 +98,26 @@ KindList list_kinds(const std::vector<FileIndex>& files)
   return kinds;
 }
 
+/// Columns are sent as their names and the numbers of unknown ones with texts: their types follow from these.
 void write_kinds(ArchiveWriter& out, const KindList& kinds)
 {
   out.list(kinds,
     [&](const FrameKind* kind)
     {
-      out.text(kind->units);
-      out.number(std::int32_t{ kind->layout });
-      out.flag(kind->named);
-      out.flag(kind->guessed);
-      out.list(kind->schema.columns(),
-        [&](const ColumnInfo& column)
+      std::vector<std::string> names;
+      std::vector<std::int32_t> texts;
+      for (const ColumnInfo& column : kind->schema.columns())
+      {
+        if (!column.known && column.type == ValueType::Text)
         {
-          out.text(column.name);
-          out.flag(!column.known && column.type == ValueType::Text);
-        });
+          texts.push_back(static_cast<std::int32_t>(names.size()));
+        }
+        names.push_back(column.name);
+      }
+      visit_kind(out, *kind);
+      pass(out, names);
+      pass(out, texts);
     });
-}
-
-/// A column; its type follows from the name, where that is known, and else from the first row.
-struct KeptColumn
-{
-  std::string name;
-  bool words = false;
-};
-
-ColumnSchema make_schema(const std::vector<KeptColumn>& columns, bool text)
-{
-  std::vector<std::string> names;
-  for (const KeptColumn& column : columns)
-  {
-    names.push_back(column.name);
-  }
-  ColumnSchema schema(names);
-  std::vector<ColumnSchema::TypeChange> types;
-  for (const KeptColumn& column : columns)
-  {
-    const auto i = static_cast<int>(&column - columns.data());
-    const ColumnInfo& info = schema.columns()[static_cast<std::size_t>(i)];
-    require(!column.words || (text && !info.known), "a column of texts");
-    if (column.words)
-    {
-      types.push_back({ i, ValueType::Text });
-    }
-    else if (info.known && info.type == ValueType::Text && !text)
-    {
-      types.push_back({ i, ValueType::Int32 }); // an element is written as its type
-    }
-  }
-  schema.set_types(types);
-  return schema;
 }
 
 using Kinds = std::vector<std::shared_ptr<const FrameKind>>;
@@ -145,39 +129,26 @@ Kinds read_kinds(ArchiveReader& in, FrameKinds& store)
     [&](std::shared_ptr<const FrameKind>& shared)
     {
       FrameKind kind;
-      std::int32_t layout = 0;
-      std::vector<KeptColumn> columns;
-      in.text(kind.units);
-      in.number(layout);
-      in.flag(kind.named);
-      in.flag(kind.guessed);
-      in.list(columns,
-        [&](KeptColumn& column)
-        {
-          in.text(column.name);
-          in.flag(column.words);
-        });
-      require(layout >= FrameKind::bare, "a layout of frames");
-      kind.layout = layout;
-      require(!columns.empty() || kind.is_text(), "a column"); // other files have none
-      kind.schema = make_schema(columns, kind.is_text());
+      std::vector<std::string> names;
+      std::vector<std::int32_t> texts;
+      visit_kind(in, kind);
+      pass(in, names);
+      pass(in, texts);
+      require(kind.layout >= FrameKind::bare, "a layout of frames");
+      require(!names.empty() || kind.is_text(), "a column"); // other files have none
+      kind.schema = kind.is_text() ? ColumnSchema(names) : binary_schema(names);
+      std::vector<ColumnSchema::TypeChange> types;
+      for (const std::int32_t column : texts)
+      {
+        require(kind.is_text() && column >= 0 && column < std::ssize(names) &&
+            !kind.schema.columns()[static_cast<std::size_t>(column)].known,
+          "a column of texts");
+        types.push_back({ column, ValueType::Text });
+      }
+      kind.schema.set_types(types);
       shared = store.share(std::move(kind));
     });
   return kinds;
-}
-
-void read_file(ArchiveReader& in, FileIndex& file, const Kinds& kinds)
-{
-  visit_file(in, file);
-  in.list(file.frames,
-    [&](FrameEntry& entry)
-    {
-      FrameRecord frame;
-      in.number(frame);
-      require(frame.kind < kinds.size(), "a kind of frames");
-      entry = { frame.timestep, frame.rows, frame.offset, frame.end, frame.line, frame.time,
-        frame.shape, kinds[static_cast<std::size_t>(frame.kind)] };
-    });
 }
 }
 
@@ -186,18 +157,9 @@ std::string encode_files(const std::vector<FileIndex>& files)
   ArchiveWriter out;
   const KindList kinds = list_kinds(files);
   write_kinds(out, kinds);
-  out.list(files,
-    [&](const FileIndex& file)
-    {
-      visit_file(out, file);
-      out.list(file.frames,
-        [&](const FrameEntry& frame)
-        {
-          const auto kind = std::ranges::find(kinds, frame.kind.get()) - kinds.begin();
-          out.number(FrameRecord{ frame.timestep, frame.rows, frame.offset, frame.end, frame.line,
-            frame.time, frame.shape, static_cast<std::uint64_t>(kind) });
-        });
-    });
+  const auto write_kind = [&](const std::shared_ptr<const FrameKind>& kind)
+  { out.count(static_cast<std::size_t>(std::ranges::find(kinds, kind.get()) - kinds.begin())); };
+  out.list(files, [&](const FileIndex& file) { visit_file(out, file, write_kind); });
   return std::move(out.bytes);
 }
 
@@ -206,11 +168,18 @@ std::vector<FileIndex> decode_files(
 {
   ArchiveReader in(bytes);
   const Kinds table = read_kinds(in, *kinds);
+  const auto read_kind = [&](std::shared_ptr<const FrameKind>& kind)
+  {
+    std::uint64_t number = 0;
+    in.number(number);
+    require(number < table.size(), "a kind of frames");
+    kind = table[static_cast<std::size_t>(number)];
+  };
   std::vector<FileIndex> files;
   in.list(files,
     [&](FileIndex& file)
     {
-      read_file(in, file, table);
+      visit_file(in, file, read_kind);
       file.kinds = kinds;
     });
   require(in.ended(), "the end of the index");

@@ -21,6 +21,21 @@ void mix(Hash& hash, const Twofold3& vector)
 }
 }
 
+ColumnSchema binary_schema(const std::vector<std::string>& names)
+{
+  ColumnSchema schema(names);
+  std::vector<ColumnSchema::TypeChange> integers;
+  for (std::size_t column = 0; column < names.size(); ++column)
+  {
+    if (schema.columns()[column].type == ValueType::Text)
+    {
+      integers.push_back({ static_cast<int>(column), ValueType::Int32 });
+    }
+  }
+  schema.set_types(integers);
+  return schema;
+}
+
 std::shared_ptr<const FrameKind> FrameKinds::share(FrameKind kind)
 {
   const std::string names =

@@ -41,6 +41,9 @@ struct FrameHeader
     digits = {}; ///< in text, the largest number of digits in a real number of each column in the first rows; 0: none was seen
 };
 
+/// Returns the schema of a binary dump, in which an element is written as its type.
+ColumnSchema binary_schema(const std::vector<std::string>& names);
+
 /// Properties that many frames share.
 struct FrameKind
 {

@@ -2,6 +2,7 @@
 #include "granular/frames/frame_order.h"
 
 #include "granular/common/error.h"
+#include "granular/common/pass.h"
 #include "granular/frames/piece_sets.h"
 
 #include <algorithm>
@@ -292,21 +293,18 @@ FrameOrder order_frames(
 
 void write_order(ArchiveWriter& out, const FrameOrder& order)
 {
-  out.list(order.places, [&](const Place& place) { out.number(place); });
-  out.list(order.starts, [&](std::uint32_t start) { out.number(start); });
+  pass(out, order.places);
+  pass(out, order.starts);
 }
 
 FrameOrder read_order(ArchiveReader& in, const std::vector<FileIndex>& files)
 {
   FrameOrder order;
-  in.list(order.places,
-    [&](Place& place)
-    {
-      in.number(place);
-      require(place.file < files.size() && place.frame < files[place.file].frames.size(),
-        "a frame that is there");
-    });
-  in.list(order.starts, [&](std::uint32_t& start) { in.number(start); });
+  pass(in, order.places);
+  pass(in, order.starts);
+  const auto is_there = [&](const Place& place)
+  { return place.file < files.size() && place.frame < files[place.file].frames.size(); };
+  require(std::ranges::all_of(order.places, is_there), "a frame that is there");
   const auto& starts = order.starts;
   const auto not_before = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
   require(!starts.empty() && starts.front() == 0 && starts.back() == order.places.size() &&

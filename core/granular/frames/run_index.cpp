@@ -68,12 +68,6 @@ std::vector<std::string> distinct_dumps(const std::vector<std::string>& names)
   return kept;
 }
 
-/// The kinds of the frames of a run, or new ones.
-std::shared_ptr<FrameKinds> kinds_of(const std::vector<FileIndex>& files)
-{
-  return files.empty() ? std::make_shared<FrameKinds>() : files.front().kinds;
-}
-
 FramePiece piece_at(const std::vector<FileIndex>& files, const FrameOrder::Place& place)
 {
   const FileIndex& file = files[place.file];
@@ -154,10 +148,10 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
   Progress& progress)
 {
   std::vector<FileIndex> before = *scanned_; // a copy: who copied this index has them, too
+  const std::shared_ptr<FrameKinds> kinds =
+    of_ranks.empty() ? this->kinds() : of_ranks.front().kinds;
   // if this is left by an exception, what is known so far is gone and will be read anew
   files_ = scanned_ = std::make_shared<const std::vector<FileIndex>>();
-  const std::shared_ptr<FrameKinds> kinds =
-    of_ranks.empty() ? kinds_of(before) : of_ranks.front().kinds;
   std::map<std::string, FileIndex> known;
   for (std::vector<FileIndex>* looked : { &before, &of_ranks })
   {
@@ -189,7 +183,7 @@ std::vector<FileIndex> RunIndex::update_files(const std::vector<std::string>& fi
 
 std::shared_ptr<FrameKinds> RunIndex::kinds() const
 {
-  return kinds_of(*scanned_);
+  return scanned_->empty() ? std::make_shared<FrameKinds>() : scanned_->front().kinds;
 }
 
 bool RunIndex::changed() const

@@ -269,18 +269,7 @@ private:
                    : ""),
         { source_.path(), 0, header.size_one_offset });
     }
-    ColumnSchema schema(names);
-    std::vector<ColumnSchema::TypeChange> integers;
-    for (std::size_t column = 0; column < names.size(); ++column)
-    {
-      if (schema.columns()[column].type == ValueType::Text)
-      {
-        // an element is written as its type
-        integers.push_back({ static_cast<int>(column), ValueType::Int32 });
-      }
-    }
-    schema.set_types(integers);
-    return schema;
+    return binary_schema(names);
   }
 
   const ByteSource& source_;
