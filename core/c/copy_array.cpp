@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -63,43 +64,31 @@ std::string digits_of(Number number)
   }
 }
 
-/// Returns true if a number is the same in another type; floats may be rounded to floats.
+/// Returns a number in another type, or nothing if it is another one there; floats may be rounded to floats.
 template <class To, class From>
-bool fits(From value, To converted) noexcept
+std::optional<To> convert(From value) noexcept
 {
   if constexpr (std::is_floating_point_v<To>)
   {
-    return (std::is_floating_point_v<From> &&
-             std::isfinite(static_cast<double>(value)) == std::isfinite(converted)) ||
-      static_cast<long double>(converted) == static_cast<long double>(value);
+    const auto made = static_cast<To>(value);
+    const bool same = std::is_floating_point_v<From>
+      ? std::isfinite(static_cast<double>(value)) == std::isfinite(made)
+      : static_cast<long double>(made) == static_cast<long double>(value);
+    return same ? std::optional(made) : std::nullopt;
   }
   else if constexpr (std::is_floating_point_v<From>)
   {
-    constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
-    return value >= static_cast<From>(std::numeric_limits<To>::min()) && value <= most &&
-      static_cast<From>(converted) == value && (most != value || sizeof(To) < sizeof(From));
-  }
-  else
-  {
-    return std::in_range<To>(value);
-  }
-}
-
-template <class To, class From>
-To convert(From value) noexcept
-{
-  if constexpr (std::is_integral_v<To> && std::is_floating_point_v<From>)
-  {
-    // undefined for numbers beyond the type, which do not fit
     constexpr auto least = static_cast<From>(std::numeric_limits<To>::min());
     constexpr auto most = static_cast<From>(std::numeric_limits<To>::max());
     constexpr bool is_exact = sizeof(To) < sizeof(From); // or the largest number is rounded up
-    return value >= least && (value < most || (is_exact && value == most)) ? static_cast<To>(value)
-                                                                           : To{};
+    // a conversion of numbers beyond the type would be undefined
+    const bool is_there = value >= least && (value < most || (is_exact && value == most));
+    return is_there && std::trunc(value) == value ? std::optional(static_cast<To>(value))
+                                                  : std::nullopt;
   }
   else
   {
-    return static_cast<To>(value);
+    return std::in_range<To>(value) ? std::optional(static_cast<To>(value)) : std::nullopt;
   }
 }
 }
@@ -135,13 +124,13 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
           auto* const target = static_cast<char*>(to.data); // at any address
           for (std::size_t i = 0; i < values; ++i)
           {
-            const To value = convert<To>(from[i]);
-            if (!fits<To>(from[i], value))
+            const std::optional<To> value = convert<To>(from[i]);
+            if (!value)
             {
               throw BadArgument("array '" + array.name + "', value " + std::to_string(i) +
                 ": expected a number of the wanted type, got " + digits_of(from[i]));
             }
-            std::memcpy(target + i * sizeof(To), &value, sizeof(To));
+            std::memcpy(target + i * sizeof(To), &*value, sizeof(To));
           }
         });
     });

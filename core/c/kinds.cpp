@@ -276,16 +276,6 @@ std::vector<OfferedArray> euler_frame_arrays(granular_run& run, std::size_t fram
   return arrays;
 }
 
-/// A header with nothing but the timestep and the smallest box around some points.
-FrameHeader header_of(const FramePiece& piece, const Vector3& lo, const Vector3& hi)
-{
-  FrameHeader header;
-  header.timestep = piece.entry.timestep;
-  header.box = Box::from_bounds(lo, hi);
-  header.box.boundary = "ff ff ff";
-  return header;
-}
-
 void read_euler_frame(granular_run& run, std::size_t frame, const Wanted& wanted, Notices& notices,
   Progress& progress, granular_frame& to)
 {
@@ -319,7 +309,12 @@ constexpr KnownColumn subdomain_columns[] = {
   { "proc", ValueType::Int64, ColumnRole::Other, "", 0, 1, "-", "rank that owns the subdomain" },
 };
 
-/// A file says nowhere but in its data which of them it has.
+/// Returns true if a file, whose data alone say it, has an array.
+bool has_array(const Decomposition& all, std::string_view name)
+{
+  return (name != "nlocal" || all.has_particles) && (name != "proc" || all.has_ranks);
+}
+
 std::vector<OfferedArray> subdomain_arrays(granular_run& run, std::size_t frame, int)
 {
   Notices notices;
@@ -328,7 +323,7 @@ std::vector<OfferedArray> subdomain_arrays(granular_run& run, std::size_t frame,
   std::vector<OfferedArray> arrays;
   for (const KnownColumn& known : subdomain_columns)
   {
-    if ((known.name != "nlocal" || all.has_particles) && (known.name != "proc" || all.has_ranks))
+    if (has_array(all, known.name))
     {
       arrays.push_back({ std::string(known.name), known.type, known.components, true, &known });
     }
@@ -343,7 +338,9 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
   const Decomposition all = read_decomposition_pieces(pieces, notices, progress);
   const Subdomain bounds = bounds_of(all.subdomains);
   to.kind = RowKind::Subdomains;
-  to.header = header_of(pieces.front(), bounds.lo, bounds.hi);
+  to.header.timestep = pieces.front().entry.timestep;
+  to.header.box = Box::from_bounds(bounds.lo, bounds.hi);
+  to.header.box.boundary = "ff ff ff";
   to.rows = static_cast<std::int64_t>(all.subdomains.size());
   std::vector<double> lo;
   std::vector<double> hi;
@@ -358,7 +355,7 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
   }
   const auto add = [&](const KnownColumn& known, auto& values)
   {
-    if (wanted.is_wanted(known.name, true))
+    if (has_array(all, known.name) && wanted.is_wanted(known.name, true))
     {
       add_array(
         to, std::string(known.name), known.type, known.components, std::move(values), &known);
@@ -366,14 +363,8 @@ void read_decomposition_frame(granular_run& run, std::size_t frame, const Wanted
   };
   add(subdomain_columns[0], lo);
   add(subdomain_columns[1], hi);
-  if (all.has_particles)
-  {
-    add(subdomain_columns[2], particles);
-  }
-  if (all.has_ranks)
-  {
-    add(subdomain_columns[3], ranks);
-  }
+  add(subdomain_columns[2], particles);
+  add(subdomain_columns[3], ranks);
 }
 }
 
