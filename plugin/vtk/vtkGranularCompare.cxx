@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularCompare.h"
 
-#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
-#include "private/dump/particles.h"
-#include "private/dump/shared_names.h"
+#include "private/dump/dump_input.h"
 #include "private/local/chosen_lines.h"
 #include "private/local/local_rows.h"
 #include "private/paths/changed_rows.h"
 #include "private/paths/kept_frames.h"
-#include "private/request/expect_data.h"
+#include "private/request/errors.h"
 #include "private/request/request_task.h"
 
 #include "granular/euler/grain_values.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularContactSums.h"
 
-#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/arrays/made_arrays.h"
 #include "private/contacts/contact_input.h"
-#include "private/dump/particles.h"
+#include "private/dump/dump_input.h"
 #include "private/local/chosen_lines.h"
 #include "private/request/request_task.h"
 

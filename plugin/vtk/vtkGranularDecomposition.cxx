@@ -3,7 +3,7 @@
 
 #include "private/arrays/arrays.h"
 #include "private/decomposition/voxels.h"
-#include "private/dump/particles.h"
+#include "private/dump/dump_input.h"
 #include "private/request/request_task.h"
 
 #include "granular/decomposition/count_particles.h"

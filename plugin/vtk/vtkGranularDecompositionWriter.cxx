@@ -2,8 +2,7 @@
 #include "vtkGranularDecompositionWriter.h"
 
 #include "private/decomposition/voxels.h"
-#include "private/request/expect_data.h"
-#include "private/request/name_file.h"
+#include "private/request/errors.h"
 #include "private/writing/writer.h"
 
 #include "granular/decomposition/decomposition_text.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpReader.h"
 
-#include "private/dump/reader_frames.h"
+#include "private/dump/input_frames.h"
 #include "private/readers/series_reader.h"
 
 #include "granular/common/words.h"

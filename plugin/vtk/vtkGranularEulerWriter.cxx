@@ -2,7 +2,7 @@
 #include "vtkGranularEulerWriter.h"
 
 #include "private/euler/euler_input.h"
-#include "private/request/name_file.h"
+#include "private/request/errors.h"
 #include "private/writing/writer.h"
 
 #include "granular/euler/euler_text.h"

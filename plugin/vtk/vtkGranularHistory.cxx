@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularHistory.h"
 
-#include "private/arrays/array_of.h"
+#include "private/arrays/arrays.h"
 #include "private/paths/path_task.h"
 
 #include "granular/common/words.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularLocalJoin.h"
 
-#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
-#include "private/dump/particles.h"
-#include "private/dump/shared_names.h"
+#include "private/dump/dump_input.h"
 #include "private/local/lines.h"
 #include "private/local/local_rows.h"
 #include "private/request/request_task.h"

@@ -3,7 +3,7 @@
 
 #include "private/euler/average_task.h"
 #include "private/euler/euler_cells.h"
-#include "private/request/expect_data.h"
+#include "private/request/errors.h"
 #include "private/request/piece_request.h"
 
 #include "granular/contacts/point_average.h"

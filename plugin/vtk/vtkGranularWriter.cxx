@@ -3,7 +3,6 @@
 
 #include "private/dump/input_frames.h"
 #include "private/readers/series_reader.h"
-#include "private/request/abort.h"
 #include "private/request/guard.h"
 #include "private/writing/writer.h"
 

@@ -9,7 +9,10 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -56,6 +59,19 @@ vtkSmartPointer<vtkAbstractArray> MakeInteger(const char* name, vtkTypeInt64 val
 vtkSmartPointer<vtkAbstractArray> MakeIntegers(const char* name, const std::vector<int>& values);
 vtkSmartPointer<vtkAbstractArray> MakeStrings(
   const char* name, const std::vector<std::string>& values);
+
+/**
+ * Returns an array of single values: of each thing in a range, what the function says.
+ */
+template <class Array, class Range, class Value = std::identity>
+vtkSmartPointer<Array> ArrayOf(const char* name, const Range& things, const Value& value = {})
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(std::ranges::size(things)));
+  std::ranges::transform(things, array->GetPointer(0), value);
+  return array;
+}
 
 /**
  * Returns an array that takes over the memory of tuples x components doubles.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/decomposition/voxels.h"
 
-#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
 

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/dump_input.h"
 
+#include "private/request/errors.h"
+
+#include "granular/common/error.h"
+#include "granular/common/pass.h"
+#include "granular/common/words.h"
+#include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
+#include "granular/particles/shared_header.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -16,6 +23,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 namespace vtkGranularPrivate
 {
@@ -218,5 +226,94 @@ std::vector<double> ReadAbsolutePoints(vtkPointSet* input)
     points.insert(points.end(), loaded, loaded + 3 * count);
   }
   return points;
+}
+
+Particles::Particles(vtkDataObject* input, granular::Communicator& ranks)
+  : DumpInput(ExpectData<vtkPointSet>(input, "a vtkPointSet of particles"))
+{
+  granular::share_header(this->View, ranks);
+}
+
+std::pair<granular::Vector3, granular::Vector3> Particles::FindBounds(
+  const double given[6], const char* tilted) const
+{
+  const granular::FrameView& view = this->View;
+  if (std::any_of(given, given + 6, [](double bound) { return std::isnan(bound); }))
+  {
+    throw granular::Error("expected Bounds of numbers, got nan");
+  }
+  const bool all = given[0] <= given[1] && given[2] <= given[3] && given[4] <= given[5];
+  if (!all && !view.has_box)
+  {
+    throw granular::Error(
+      "expected the box in the field data of the input (BoxOrigin, BoxVectors), "
+      "got none: give Bounds");
+  }
+  const bool fits = !view.header.box.tilted || (!tilted && !view.header.box.general);
+  if (!all && !fits)
+  {
+    throw granular::UnsupportedError("expected a box along the axes, got a tilted one: " +
+      std::string(tilted ? tilted : "give Bounds"));
+  }
+  const granular::BoxBounds box = all ? granular::BoxBounds{} : view.header.box.bounds();
+  granular::Vector3 lo = box.lo;
+  granular::Vector3 hi = box.hi;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    if (given[2 * k] <= given[2 * k + 1])
+    {
+      lo[k] = given[2 * k];
+      hi[k] = given[2 * k + 1];
+    }
+  }
+  return { lo, hi };
+}
+
+template <class Archive>
+static void pass(Archive& archive, typename Archive::template Passed<KnownArrays>& known)
+{
+  archive.number(known.HasParticles);
+  granular::pass(archive, known.Names);
+  granular::pass(archive, known.Sizes);
+}
+
+KnownArrays ShareArrays(const granular::FrameView& particles, granular::Communicator& ranks)
+{
+  KnownArrays own{ particles.rows > 0, {}, {} };
+  for (const granular::ArrayView& array : particles.arrays)
+  {
+    if (array.type != granular::ValueType::Text && array.name != "id")
+    {
+      own.Names.push_back(array.name);
+      own.Sizes.push_back(array.size());
+    }
+  }
+  const std::vector<KnownArrays> all = granular::gather(ranks, own);
+  const auto best = std::ranges::find_if(all, &KnownArrays::HasParticles);
+  return best == all.end() ? all.back() : *best;
+}
+
+std::vector<std::string> NamesIn(std::string list, const std::vector<std::string>& all)
+{
+  std::ranges::replace(list, ',', ' ');
+  std::vector<std::string> names;
+  for (const std::string_view word : granular::split_words(list))
+  {
+    if (word == "*")
+    {
+      names.insert(names.end(), all.begin(), all.end());
+    }
+    else
+    {
+      names.emplace_back(word);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> ShareNames(
+  const std::string& list, const granular::FrameView& particles, granular::Communicator& ranks)
+{
+  return NamesIn(list, ShareArrays(particles, ranks).Names);
 }
 }

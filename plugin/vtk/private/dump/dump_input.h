@@ -6,10 +6,13 @@
 
 #include "granular/common/error.h"
 #include "granular/geometry/box.h"
+#include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 class vtkDataObject;
@@ -84,6 +87,55 @@ public:
  * are not.
  */
 std::vector<double> ReadAbsolutePoints(vtkPointSet* input);
+
+/**
+ * The particles that filters on several ranks work on.
+ */
+class Particles : public DumpInput
+{
+public:
+  /**
+   * Reads the particles of this rank from a data object; the header of the View is what all ranks share: see
+   * granular::share_header. Throws on all ranks if it is not a vtkPointSet, and what DumpInput and share_header throw.
+   * Collective.
+   */
+  Particles(vtkDataObject* input, granular::Communicator& ranks);
+
+  /**
+   * Returns the box: the given bounds if each lower one is below its upper one, otherwise the box in the field data.
+   * Throws Error if there is none; UnsupportedError for a tilted box, with the text `tilted`, or, if tilted is null,
+   * for a box without axis-aligned bounds.
+   */
+  std::pair<granular::Vector3, granular::Vector3> FindBounds(
+    const double given[6], const char* tilted) const;
+};
+
+/**
+ * The arrays of numbers of particles that a rank knows, but for ids.
+ */
+struct KnownArrays
+{
+  bool HasParticles = false;
+  std::vector<std::string> Names; ///< which may have blanks
+  std::vector<int> Sizes;         ///< their components
+};
+
+/**
+ * Returns what the first rank with particles knows; if none has particles, what the last rank knows. Collective.
+ */
+KnownArrays ShareArrays(const granular::FrameView& particles, granular::Communicator& ranks);
+
+/**
+ * Returns the names in a list, separated by blanks or commas; "*" stands for all of some names.
+ */
+std::vector<std::string> NamesIn(std::string list, const std::vector<std::string>& all);
+
+/**
+ * Returns the names in a list, separated by blanks or commas, the same on all ranks; "*" stands for all arrays of numbers but
+ * id of the first rank that has particles. Collective.
+ */
+std::vector<std::string> ShareNames(
+  const std::string& list, const granular::FrameView& particles, granular::Communicator& ranks);
 }
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/input_frames.h"
 
-#include "private/request/abort.h"
+#include "private/request/guard.h"
 #include "private/request/kept_pieces.h"
 
 #include "granular/common/error.h"

@@ -3,6 +3,8 @@
 #define vtkGranularInputFrames_h
 
 #include "granular/common/error.h"
+#include "granular/dump/read/dump_request.h"
+#include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
 
 #include <optional>
@@ -87,6 +89,21 @@ private:
  * Checks that all ranks have the times of the first rank; otherwise they would wait for each other. Throws Error.
  */
 void CheckTimes(const std::vector<double>& times, granular::Communicator& ranks);
+
+/**
+ * The frames of a dump reader, for filters that read columns of many frames themselves. Valid until the reader's next update.
+ */
+struct ReaderFrames
+{
+  const granular::RunIndex* Index = nullptr; ///< one frame for each time of the reader
+  granular::DumpRequest Request;             ///< what the reader shows
+
+  /**
+   * Returns the frames of an algorithm's input, if that is the particles of a dump reader that has looked at its files. What
+   * ParaView puts between them, and passes all data on, does not matter.
+   */
+  static std::optional<ReaderFrames> Find(vtkAlgorithm* consumer);
+};
 }
 
 #endif

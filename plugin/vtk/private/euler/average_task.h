@@ -6,7 +6,7 @@
 
 #include "private/arrays/made_arrays.h"
 #include "private/contacts/contact_input.h"
-#include "private/dump/particles.h"
+#include "private/dump/dump_input.h"
 #include "private/request/request_task.h"
 
 #include "granular/contacts/find_ends.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/euler/euler_cells.h"
 
-#include "private/arrays/array_of.h"
 #include "private/arrays/arrays.h"
 #include "private/request/piece_request.h"
 

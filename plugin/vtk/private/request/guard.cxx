@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/request/guard.h"
 
-#include "private/request/abort.h"
-
 #include "granular/common/error.h"
 
 #include "vtkAlgorithm.h"

@@ -5,10 +5,12 @@
 #include "granular/common/progress.h"
 #include "granular/parallel/communicator.h"
 
+#include "vtkAlgorithm.h"
+#include "vtkInformation.h"
+
 #include <exception>
 #include <string>
 
-class vtkAlgorithm;
 class vtkInformationVector;
 
 namespace vtkGranularPrivate
@@ -67,6 +69,51 @@ Outcome Guard(vtkAlgorithm* self, Ranks& ranks, vtkInformationVector* outputs, T
   {
     EmptyOutputs(outputs);
     return ranks.Fail(self, DescribeException(std::current_exception()));
+  }
+}
+
+/**
+ * Returns true if the user has asked the algorithm to stop. VTK 9.1 asks only the algorithm itself, later versions also
+ * the pipeline behind it.
+ */
+template <typename Algorithm>
+bool AskedToStop(Algorithm* self)
+{
+  if constexpr (requires { self->CheckAbort(); })
+  {
+    return self->CheckAbort();
+  }
+  else
+  {
+    return self->GetAbortExecute() != 0;
+  }
+}
+
+/**
+ * Returns true if the output of an information is marked as aborted.
+ */
+template <typename Algorithm>
+bool IsMarkedStopped(vtkInformation* output)
+{
+  if constexpr (requires { Algorithm::ABORTED(); })
+  {
+    return output->Get(Algorithm::ABORTED()) != 0;
+  }
+  else
+  {
+    return false;
+  }
+}
+
+/**
+ * Marks the outputs of the algorithm as aborted, or not. VTK 9.1 has no such mark.
+ */
+template <typename Algorithm>
+void MarkStopped(Algorithm* self, bool stopped)
+{
+  if constexpr (requires { self->SetAbortOutput(stopped); })
+  {
+    self->SetAbortOutput(stopped);
   }
 }
 

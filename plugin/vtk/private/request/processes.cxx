@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/request/processes.h"
 
-#include "private/request/abort.h"
+#include "private/request/guard.h"
+
+#include "granular/parallel/executor.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -10,6 +12,14 @@
 #include "vtkMultiProcessController.h"
 #include "vtkOutputWindow.h"
 
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+#include "granular/mpi/mpi_communicator.h"
+
+#include "vtkMPI.h"
+#include "vtkMPICommunicator.h"
+#endif
+
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -28,6 +38,25 @@ void PassOn(vtkObject*, unsigned long, void*, void* text)
   {
     vtkOutputWindowDisplayErrorText(words);
   }
+}
+
+/**
+ * Returns the ranks of a controller, all of which must call this; a single rank if there is no controller or it is not
+ * an MPI controller.
+ */
+std::unique_ptr<granular::Communicator> MakeRanks(vtkMultiProcessController* controller)
+{
+#if VTK_MODULE_ENABLE_VTK_ParallelMPI
+  auto* mpi =
+    controller ? vtkMPICommunicator::SafeDownCast(controller->GetCommunicator()) : nullptr;
+  if (mpi && mpi->GetNumberOfProcesses() > 1)
+  {
+    return granular::MpiCommunicator::make(*mpi->GetMPIComm()->GetHandle());
+  }
+#else
+  static_cast<void>(controller);
+#endif
+  return std::make_unique<granular::SerialCommunicator>();
 }
 }
 
@@ -146,5 +175,15 @@ void Processes::Warn(vtkAlgorithm* self, const std::vector<Remark>& remarks)
       vtkWarningWithObjectMacro(self, << remark.Text);
     }
   }
+}
+
+int ChooseThreads(int wanted, const granular::Communicator& ranks)
+{
+  if (wanted > 0)
+  {
+    return wanted;
+  }
+  // a rank that is bound to some cores has these for itself
+  return std::clamp(granular::machine_cores() / ranks.node_size(), 1, granular::available_cores());
 }
 }

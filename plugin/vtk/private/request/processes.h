@@ -3,7 +3,6 @@
 #define vtkGranularProcesses_h
 
 #include "private/request/guard.h"
-#include "private/request/ranks.h"
 
 #include "granular/parallel/communicator.h"
 
@@ -110,6 +109,12 @@ private:
   std::set<std::string> Warned; ///< topics of the last request
   vtkMTimeType WarnedTime = 0;  ///< of the pipeline then
 };
+
+/**
+ * Returns the number of threads of a rank: the requested number, or for 0 its share of the cores of the machine, and at
+ * most the cores that it may run on.
+ */
+int ChooseThreads(int wanted, const granular::Communicator& ranks);
 }
 
 #endif

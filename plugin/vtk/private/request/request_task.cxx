@@ -3,7 +3,7 @@
 
 #include "vtkGranularAlgorithm.h"
 
-#include "private/request/ranks.h"
+#include "private/request/processes.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformationVector.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkGranularExpectData_h
-#define vtkGranularExpectData_h
+#ifndef vtkGranularErrors_h
+#define vtkGranularErrors_h
 
 #include "granular/common/error.h"
 
@@ -28,6 +28,28 @@ Type* ExpectData(vtkDataObject* input, const char* expected, const granular::Whe
       where);
   }
   return data;
+}
+
+/**
+ * Runs a function on a file, and names the file in errors.
+ */
+template <typename Work>
+void NameFile(granular::Where where, const Work& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const granular::UnsupportedError& error)
+  {
+    where.column = error.where().column;
+    throw granular::UnsupportedError(error.text(), where);
+  }
+  catch (const granular::FormatError& error)
+  {
+    where.column = error.where().column;
+    throw granular::FormatError(error.text(), where);
+  }
 }
 }
 

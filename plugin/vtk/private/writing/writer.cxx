@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "private/writing/frame_writer.h"
+#include "private/writing/writer.h"
 
 #include "granular/common/pass.h"
 #include "granular/parallel/gather.h"
