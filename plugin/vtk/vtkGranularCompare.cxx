@@ -3,7 +3,6 @@
 
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
-#include "private/local/chosen_lines.h"
 #include "private/local/local_rows.h"
 #include "private/paths/changed_rows.h"
 #include "private/paths/kept_frames.h"
@@ -323,8 +322,8 @@ private:
       }
     }
     vtkPolyData* output = this->Outputs[port];
-    const ChosenCells now = AddLines({ inputs[0], &*rows[0], this->PartOf(all) }, output);
-    const ChosenCells before = AddLines({ inputs[1], &*rows[1], this->PartOf(lost) }, output);
+    const ChosenCells now = rows[0]->AddLines(inputs[0], this->PartOf(all), output);
+    const ChosenCells before = rows[1]->AddLines(inputs[1], this->PartOf(lost), output);
     vtkCellData* data = output->GetCellData();
     ChangedRows(now.All, before.All)
       .Pass(inputs[0]->GetCellData(), inputs[1]->GetCellData(), this->Group, data);
@@ -444,6 +443,8 @@ private:
   std::int64_t Unconnected = 0; ///< of these, without a particle at an end
 };
 
+vtkGranularExecuteMacro(vtkGranularCompare);
+
 //------------------------------------------------------------------------------
 vtkGranularCompare::vtkGranularCompare()
   : Frames(std::make_unique<KeptFrames>())
@@ -464,13 +465,6 @@ vtkPolyData* vtkGranularCompare::GetOutput()
 vtkPolyData* vtkGranularCompare::GetLinesOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularCompare::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

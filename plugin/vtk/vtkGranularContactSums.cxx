@@ -5,7 +5,6 @@
 #include "private/arrays/made_arrays.h"
 #include "private/contacts/contact_input.h"
 #include "private/dump/dump_input.h"
-#include "private/local/chosen_lines.h"
 #include "private/request/request_task.h"
 
 #include "granular/contacts/contact_sums.h"
@@ -275,7 +274,7 @@ private:
     const auto [first, last] = this->RangeOf(rows.Count());
     std::vector<std::int64_t> wanted(static_cast<std::size_t>(last - first));
     std::iota(wanted.begin(), wanted.end(), first);
-    const ChosenCells cells = AddLines({ input, &rows, wanted }, output);
+    const ChosenCells cells = rows.AddLines(input, wanted, output);
     rows.PassCells(cells.All, output->GetCellData());
     const auto* const friction = static_cast<const double*>(this->Sums.friction[0].data());
     output->GetCellData()->AddArray(ArrayOf<vtkDoubleArray>(FrictionArray, cells.Rows,
@@ -321,6 +320,8 @@ private:
   bool LackPlaces = false;
 };
 
+vtkGranularExecuteMacro(vtkGranularContactSums);
+
 //------------------------------------------------------------------------------
 vtkGranularContactSums::vtkGranularContactSums()
   : ArraySelection(MakeSelection(this, Arrays))
@@ -345,13 +346,6 @@ vtkPolyData* vtkGranularContactSums::GetOutput()
 vtkPolyData* vtkGranularContactSums::GetLinesOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularContactSums::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

@@ -205,6 +205,8 @@ private:
   std::int64_t Outside = 0;
 };
 
+vtkGranularExecuteMacro(vtkGranularDecomposition, this->Mode == RANKS);
+
 //------------------------------------------------------------------------------
 vtkGranularDecomposition::vtkGranularDecomposition()
 {
@@ -228,13 +230,6 @@ int vtkGranularDecomposition::RequestUpdateExtent(
     return 1;
   }
   return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecomposition::Execute(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  Task(this, request, inputs, outputs, this->Mode == RANKS).Run();
 }
 
 //------------------------------------------------------------------------------

@@ -58,14 +58,7 @@ void vtkGranularDecompositionReader::Internals::Show(Shown& shown)
 
   const auto [begin, end] = shown.Piece.RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
   granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
-  if (begin == 0 && end == static_cast<vtkTypeInt64>(all.subdomains.size()))
-  {
-    part.subdomains.swap(all.subdomains); // there may be many
-  }
-  else
-  {
-    part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
-  }
+  part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
   VoxelForm form;
   form.Threads = this->GetThreads();
   shown.Progress.set_part(0.8, 1);

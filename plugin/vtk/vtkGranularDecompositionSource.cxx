@@ -39,15 +39,10 @@ private:
   }
 };
 
+vtkGranularExecuteMacro(vtkGranularDecompositionSource, true);
+
 //------------------------------------------------------------------------------
 vtkGranularDecompositionSource::vtkGranularDecompositionSource()
 {
   this->SetPorts({}, { "vtkUnstructuredGrid" });
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionSource::Execute(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  Task(this, request, inputs, outputs, true).Run();
 }

@@ -336,6 +336,8 @@ private:
   std::vector<std::string> Lacking; ///< arrays that no frame with particles has, so far
 };
 
+vtkGranularExecuteMacro(vtkGranularHistory);
+
 //------------------------------------------------------------------------------
 vtkGranularHistory::vtkGranularHistory()
 {
@@ -346,13 +348,6 @@ vtkGranularHistory::vtkGranularHistory()
 vtkTable* vtkGranularHistory::GetOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularHistory::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

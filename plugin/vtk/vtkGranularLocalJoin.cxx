@@ -360,6 +360,8 @@ private:
   std::array<std::string, 2> Remarks; ///< ids that were not found, timesteps that differ; or empty
 };
 
+vtkGranularExecuteMacro(vtkGranularLocalJoin);
+
 //------------------------------------------------------------------------------
 vtkGranularLocalJoin::vtkGranularLocalJoin()
 {
@@ -370,13 +372,6 @@ vtkGranularLocalJoin::vtkGranularLocalJoin()
 vtkPolyData* vtkGranularLocalJoin::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularLocalJoin::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

@@ -206,6 +206,8 @@ private:
   }
 };
 
+vtkGranularExecuteMacro(vtkGranularPackingSource, true);
+
 //------------------------------------------------------------------------------
 vtkGranularPackingSource::vtkGranularPackingSource()
   : Vertices(std::make_unique<VertexCache>())
@@ -220,13 +222,6 @@ vtkGranularPackingSource::~vtkGranularPackingSource() = default;
 vtkPolyData* vtkGranularPackingSource::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(GRAINS));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPackingSource::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector, true).Run();
 }
 
 //------------------------------------------------------------------------------

@@ -112,6 +112,8 @@ private:
   vtkDataSet* Points = nullptr;
 };
 
+vtkGranularExecuteMacro(vtkGranularPointAverage);
+
 //------------------------------------------------------------------------------
 vtkGranularPointAverage::vtkGranularPointAverage()
 {
@@ -166,13 +168,6 @@ int vtkGranularPointAverage::RequestUpdateExtent(
     points->CopyEntry(output, Pipeline::UPDATE_EXTENT());
   }
   return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPointAverage::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

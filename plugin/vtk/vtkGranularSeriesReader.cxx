@@ -3,7 +3,7 @@
 
 #include "private/readers/series_reader.h"
 #include "private/request/guard.h"
-#include "private/request/kept_pieces.h"
+#include "private/request/piece_request.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"

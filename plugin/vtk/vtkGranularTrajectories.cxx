@@ -296,6 +296,8 @@ private:
   std::size_t LastLine = 0;
 };
 
+vtkGranularExecuteMacro(vtkGranularTrajectories);
+
 //------------------------------------------------------------------------------
 vtkGranularTrajectories::vtkGranularTrajectories()
   : Kept(std::make_unique<TailFrames>())
@@ -310,13 +312,6 @@ vtkGranularTrajectories::~vtkGranularTrajectories() = default;
 vtkPolyData* vtkGranularTrajectories::GetOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularTrajectories::Execute(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  Task(this, request, inputVector, outputVector).Run();
 }
 
 //------------------------------------------------------------------------------

@@ -7,7 +7,6 @@
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
-#include "vtkCellType.h"
 #include "vtkDataArrayRange.h"
 #include "vtkDataObject.h"
 #include "vtkIdList.h"
@@ -31,12 +30,7 @@ namespace
 void AddCell(vtkPointSet* lines, const std::vector<double>& points, vtkIdType cell, bool first,
   vtkIdList* ids, double* ends)
 {
-  const int type = lines->GetCellType(cell);
-  if (type != VTK_LINE && type != VTK_POLY_LINE)
-  {
-    throw granular::UnsupportedError("expected lines as cells, got a cell of the VTK type " +
-      std::to_string(type) + " in row " + std::to_string(cell) + " (the first is 0)");
-  }
+  CheckLine(lines, cell);
   lines->GetCellPoints(cell, ids);
   const double* const from = points.data() + 3 * ids->GetId(0);
   const double* const to = points.data() + 3 * ids->GetId(ids->GetNumberOfIds() - 1);

@@ -10,7 +10,9 @@
 #include "granular/particles/point_forms.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -18,6 +20,9 @@
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -32,6 +37,16 @@
 
 namespace vtkGranularPrivate
 {
+void CheckLine(vtkDataSet* data, vtkIdType cell)
+{
+  const int type = data->GetCellType(cell);
+  if (type != VTK_LINE && type != VTK_POLY_LINE)
+  {
+    throw granular::UnsupportedError("expected lines as cells, got a cell of the VTK type " +
+      std::to_string(type) + " in row " + std::to_string(cell) + " (the first is 0)");
+  }
+}
+
 LocalRows::LocalRows(vtkDataObject* input)
 {
   vtkIdType count = 0;
@@ -275,6 +290,43 @@ void LocalRows::PassCells(const std::vector<std::int64_t>& cells, vtkDataSetAttr
   tuples->SetNumberOfIds(std::ssize(cells));
   std::ranges::copy(cells, tuples->begin());
   this->PassTuples(tuples, to);
+}
+
+ChosenCells LocalRows::AddLines(
+  vtkPointSet* input, const std::vector<std::int64_t>& rows, vtkPolyData* output) const
+{
+  ChosenCells cells;
+  const std::vector<vtkIdType> begins = this->FindBegins();
+  const std::vector<vtkIdType> ends = this->FindEnds();
+  for (const std::int64_t row : rows)
+  {
+    const auto at = static_cast<std::size_t>(row);
+    for (vtkIdType cell = begins[at]; cell <= ends[at]; ++cell)
+    {
+      cells.All.push_back(cell);
+      cells.Rows.push_back(row);
+    }
+  }
+  if (!output->GetPoints())
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    output->SetPoints(points);
+    output->SetLines(vtkNew<vtkCellArray>());
+  }
+  vtkNew<vtkIdList> corners;
+  for (const std::int64_t cell : cells.All)
+  {
+    CheckLine(input, cell);
+    input->GetCellPoints(cell, corners);
+    output->GetLines()->InsertNextCell(static_cast<int>(corners->GetNumberOfIds()));
+    for (const vtkIdType corner : *corners)
+    {
+      output->GetLines()->InsertCellPoint(
+        output->GetPoints()->InsertNextPoint(input->GetPoint(corner)));
+    }
+  }
+  return cells;
 }
 
 /**

@@ -18,12 +18,29 @@
 #include <vector>
 
 class vtkDataObject;
+class vtkDataSet;
 class vtkDataSetAttributes;
 class vtkFieldData;
 class vtkIdList;
+class vtkPointSet;
+class vtkPolyData;
 
 namespace vtkGranularPrivate
 {
+/**
+ * Throws UnsupportedError if a cell is no line.
+ */
+void CheckLine(vtkDataSet* data, vtkIdType cell);
+
+/**
+ * The cells of some rows: lines that were split have several.
+ */
+struct ChosenCells
+{
+  std::vector<std::int64_t> All;
+  std::vector<std::int64_t> Rows; ///< of each
+};
+
 /**
  * Rows that name particles at the ends of lines: of a table, or cells of lines. Each row counts once: if there are
  * integers `part`, as AddParts makes them, only those with part 0 count. Duplicate ghosts are left out.
@@ -95,6 +112,13 @@ public:
    * Returns all arrays, with the values of some cells, or tuples of the table, in any order.
    */
   void PassCells(const std::vector<std::int64_t>& cells, vtkDataSetAttributes* to) const;
+
+  /**
+   * Adds the lines of some rows, cells of the input, to those of the output: each cell with points of its own, which are
+   * doubles. Throws what FindBegins and CheckLine throw.
+   */
+  ChosenCells AddLines(
+    vtkPointSet* input, const std::vector<std::int64_t>& rows, vtkPolyData* output) const;
 
   vtkFieldData* GetFieldData() const { return this->Field; }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/request/processes.h"
 
-#include "private/request/guard.h"
-
 #include "granular/parallel/executor.h"
 
 #include "vtkAlgorithm.h"

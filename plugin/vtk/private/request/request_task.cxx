@@ -3,8 +3,6 @@
 
 #include "vtkGranularAlgorithm.h"
 
-#include "private/request/processes.h"
-
 #include "vtkDataObject.h"
 #include "vtkInformationVector.h"
 

@@ -115,4 +115,14 @@ protected:
 };
 }
 
+/**
+ * Defines the method Execute of a filter, which runs the filter's Task. Further arguments are the last ones of a RequestTask.
+ */
+#define vtkGranularExecuteMacro(Filter, ...)                                               \
+  void Filter::Execute(                                                                    \
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) \
+  {                                                                                        \
+    Task(this, request, inputs, outputs __VA_OPT__(, ) __VA_ARGS__).Run();                 \
+  }
+
 #endif
