@@ -8,7 +8,7 @@
 #include "granular/common/words.h"
 #include "granular/parallel/gather.h"
 #include "granular/particles/absolute_positions.h"
-#include "granular/particles/shared_header.h"
+#include "granular/particles/frame_view.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
