@@ -10,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -185,9 +184,8 @@ const FrameArray& find_array(const granular_frame& frame, std::string_view name)
   {
     return *found;
   }
-  throw BadArgument("expected an array of " +
-    join_words(frame.arrays | std::views::transform(&FrameArray::name), ", ") + ", got '" +
-    std::string(name) + "'");
+  throw BadArgument("expected an array of " + join_words(frame.arrays, ", ", &FrameArray::name) +
+    ", got '" + std::string(name) + "'");
 }
 
 Box make_box(const granular_box& box)

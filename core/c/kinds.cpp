@@ -16,7 +16,6 @@
 #include "granular/restart/restart_reader.h"
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 #include <utility>
 
@@ -114,8 +113,7 @@ std::vector<std::string> find_meaning(
     if (preset == local_presets().end())
     {
       throw BadArgument("expected a preset of Automatic, AsNamed, " +
-        join_words(local_presets() | std::views::transform(&LocalPreset::name), ", ") + ", got '" +
-        run.preset + "'");
+        join_words(local_presets(), ", ", &LocalPreset::name) + ", got '" + run.preset + "'");
     }
     return name_columns(columns, *preset);
   }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <ranges>
 #include <utility>
 
 namespace granular_c
@@ -223,9 +222,8 @@ std::unique_ptr<granular_frame> granular_run::read(
     if (name != points_name && name != ends_name && name != "length" &&
       std::ranges::find(there, name, &OfferedArray::name) == there.end())
     {
-      throw BadArgument("expected an array of " +
-          join_words(there | std::views::transform(&OfferedArray::name), ", ") + ", got '" + name +
-          "'",
+      throw BadArgument("expected an array of " + join_words(there, ", ", &OfferedArray::name) +
+          ", got '" + name + "'",
         where_of(index.first_piece(frame)));
     }
   }

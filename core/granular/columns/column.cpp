@@ -8,7 +8,6 @@
 #include <charconv>
 #include <iterator>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -261,7 +260,7 @@ std::vector<int> ColumnSchema::arrays_of_columns() const
 
 std::string ColumnSchema::text() const
 {
-  return join_words(columns_ | std::views::transform(&ColumnInfo::name));
+  return join_words(columns_, " ", &ColumnInfo::name);
 }
 
 void ColumnSchema::set_types(std::span<const TypeChange> changes)

@@ -3,6 +3,7 @@
 #define granular_common_words_h
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,14 +50,14 @@ inline std::vector<std::string_view> split_words(std::string_view line)
   return words;
 }
 
-/// Returns words with something between them.
-template <class Words>
-std::string join_words(const Words& words, std::string_view between = " ")
+/// Returns words with something between them: the elements of a list, or what word_of makes of them.
+template <class List, class WordOf = std::identity>
+std::string join_words(const List& list, std::string_view between = " ", const WordOf& word_of = {})
 {
   std::string text;
-  for (const auto& word : words)
+  for (const auto& element : list)
   {
-    text.append(text.empty() ? std::string_view() : between).append(word);
+    text.append(text.empty() ? std::string_view() : between).append(std::invoke(word_of, element));
   }
   return text;
 }

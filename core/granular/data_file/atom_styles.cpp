@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <set>
 
 namespace granular
@@ -76,8 +75,7 @@ bool fits(const AtomStyle& style, const DataLayout& layout)
 
 std::string names_of(const std::vector<const AtomStyle*>& list)
 {
-  return join_words(
-    list | std::views::transform([](const AtomStyle* style) { return style->name; }));
+  return join_words(list, " ", [](const AtomStyle* style) { return style->name; });
 }
 
 std::vector<const AtomStyle*> all_styles()

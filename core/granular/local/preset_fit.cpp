@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <set>
 
 namespace granular
@@ -189,7 +188,12 @@ private:
   template <class Fits>
   bool all_rows(const Fits& fits) const
   {
-    return std::ranges::all_of(std::views::iota(std::size_t{ 0 }, sample_.rows), fits);
+    std::size_t row = 0;
+    while (row < sample_.rows && fits(row))
+    {
+      ++row;
+    }
+    return row == sample_.rows;
   }
 
   std::vector<std::string_view> names_;

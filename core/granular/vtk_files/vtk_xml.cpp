@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 
 namespace granular
 {
@@ -45,8 +44,7 @@ T choose(
     [&](const Choice<T>& choice) { return choice.word == word || (optional && word.empty()); });
   if (found == std::end(choices))
   {
-    tags.fail("the " + std::string(attribute) + " " +
-        join_words(choices | std::views::transform(&Choice<T>::word), " or "),
+    tags.fail("the " + std::string(attribute) + " " + join_words(choices, " or ", &Choice<T>::word),
       quoted(word));
   }
   return found->value;
