@@ -74,7 +74,7 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
     sources.push_back(component_of(*array, i));
   }
   std::vector<std::int64_t> rows(static_cast<std::size_t>(frame.rows));
-  std::iota(rows.begin(), rows.end(), 0);
+  std::iota(rows.begin(), rows.end(), std::int64_t{ 0 });
   std::vector<double> values(rows.size() * sources.size());
   load_rows(sources, rows, values.data());
   return values;

@@ -379,6 +379,15 @@ for dt in (0, -1, float("nan"), float("inf")):
     raises(granular.ArgumentError, lambda: granular.read_log(path, dt=dt), "dt", str(dt))  # noqa: B023
 raises(granular.ArgumentError, lambda: granular.read_log([]), "at least one log")
 raises(granular.ArgumentError, lambda: granular.read_log(path, dt=1e306), "finite times")
+# a long line behind the pairs of a block costs time in proportion to its length, or this would not end
+long = BLOCKS.split("\n")
+log = read(written("\n".join([*long[:2], "a" * (1 << 20), *long[2:]])))
+assert log.steps.tolist() == read(written(BLOCKS)).steps.tolist()
+# a column of the log's own is no number of a run
+log = read(written(TABLE.replace("Press", "Run")))
+assert log["Run"].tolist() == log.all_rows["Run"].tolist() == log.runs[0]["Run"].tolist() and log["Run"].dtype == float, log.columns
+assert log["Run"][0] == 2
+
 # bytes of any kind are a log or an error
 random = numpy.random.default_rng(1)
 for _ in range(300):

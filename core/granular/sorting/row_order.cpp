@@ -127,7 +127,7 @@ RowOrder::RowOrder(std::span<const std::int64_t> ids)
 
 void RowOrder::apply(Block& block, std::size_t width, const Executor& executor) const
 {
-  if (!this->moves() || block.bytes() == 0)
+  if (rows_.bytes() == 0 || block.bytes() == 0)
   {
     return;
   }

@@ -15,14 +15,8 @@ namespace granular
 class RowOrder
 {
 public:
-  /// Makes the order that changes nothing.
-  RowOrder() noexcept = default;
-
   /// Makes the order by id; rows with the same id keep their order. Throws std::bad_alloc.
   explicit RowOrder(std::span<const std::int64_t> ids);
-
-  /// Returns true if any row moves.
-  bool moves() const noexcept { return rows_.bytes() > 0; }
 
   /// Brings the rows of a block, width bytes each, into this order. Empty blocks are unchanged. Throws std::bad_alloc.
   void apply(Block& block, std::size_t width, const Executor& executor) const;

@@ -38,7 +38,7 @@ _KNOWN = re.compile(rb"""\s*(?:
 # `colname 3 "Kinetic Energy"`, and the names in keywords: ['Step', "v_a", Temp, ]
 _COLNAME = re.compile(rb"""\bcolname\s+(\S+)\s+(?:"([^"]+)"|'([^']+)'|(\S+))""")
 _KEYWORD = re.compile(rb"""\s*(?:"([^"]*)"|'([^']*)'|([^\s,\[\]][^,\]]*))""")
-_PAIR = re.compile(rb"\s*(\S[^=]*?)\s+=\s+(\S+)(?!\S)")
+_PAIR = re.compile(rb"([^\s=][^=]*?) = (\S+)(?: |$)")
 _LARGEST = (1 << 63) - 1
 _MOST_DIGITS = 100
 _FREE_CONTENT = 1 << 28  # bytes that are read whatever the size of the compressed file
@@ -111,14 +111,15 @@ class LogTable(_Table):
     """
 
     def __init__(self, runs: list[_Run], times: Any, has_numbers: bool = False):
-        parts = (part for run in runs for part in run.parts)
-        super().__init__(dict.fromkeys([*(["Run"] if has_numbers else []), "Step", *(name for part in parts for name in part.places)]), times)
+        names = dict.fromkeys(name for run in runs for part in run.parts for name in part.places)
+        self._has_numbers = has_numbers and "Run" not in names  # the log's own column counts
+        super().__init__(dict.fromkeys([*(["Run"] if self._has_numbers else []), "Step", *names]), times)
         self._runs, self.path, self.line = runs, runs[0].path, runs[0].line
 
     def _column(self, name: str) -> numpy.ndarray:
         import numpy
 
-        if name == "Run":
+        if name == "Run" and self._has_numbers:
             return numpy.repeat(numpy.arange(len(self._runs)), [len(run.steps) for run in self._runs])
         if name == "Step":
             return numpy.concatenate([numpy.frombuffer(run.steps, dtype=numpy.int64) for run in self._runs])
@@ -156,7 +157,7 @@ class Log(_Table):
         steps = all_rows.steps
         order = numpy.argsort(steps, kind="stable")
         self._kept = order[numpy.append(steps[order][1:] != steps[order][:-1], True)]
-        super().__init__([name for name in all_rows if name != "Run"], all_rows.times[self._kept])
+        super().__init__([name for name in all_rows if name != "Run" or not all_rows._has_numbers], all_rows.times[self._kept])
         self.paths, self.runs, self.all_rows = paths, runs, all_rows
 
     def _column(self, name: str) -> numpy.ndarray:
@@ -537,10 +538,14 @@ class _Reader:
 
     def _pairs(self) -> bool:
         """Takes a line of `Name = value` after the first line of a block."""
-        run, block, pairs = self._run, self._block, _PAIR.findall(self._line)
+        run, block, line, pairs, end = self._run, self._block, b" ".join(self._words), [], 0
         assert run is not None and block is not None
-        if _PAIR.sub(b"", self._line).strip():
-            return False
+        while end < len(line):
+            pair = _PAIR.match(line, end)  # from where the last one ends: a long line costs time in proportion
+            if pair is None:
+                return False
+            pairs.append(pair.groups())
+            end = pair.end()
         for name, word in ((os.fsdecode(name), word) for name, word in pairs):
             values = _numbers([word])
             if values is None:
