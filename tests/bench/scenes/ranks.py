@@ -16,7 +16,8 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 def inside(path, rounds):
     """Rank 0 prints the rows of all ranks and the seconds of each way."""
     import granular
-    from vtkmodules.vtkParallelCore import vtkMultiProcessController
+    from vtkmodules.vtkCommonCore import vtkIdTypeArray
+    from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
 
     ranks = vtkMultiProcessController.GetGlobalController()
     for how, sort in HOW.items():
@@ -31,19 +32,20 @@ def inside(path, rounds):
             reader.UpdatePiece(ranks.GetLocalProcessId(), ranks.GetNumberOfProcesses(), 0)
             ranks.Barrier()
             seconds.append(time.perf_counter() - start)
-        print(f"TOLD {how}|{reader.GetOutput().GetNumberOfPoints()}|{statistics.median(seconds[1:])}", flush=True)
+        mine, rows = vtkIdTypeArray(), vtkIdTypeArray()
+        mine.InsertNextValue(reader.GetOutput().GetNumberOfPoints())
+        rows.SetNumberOfValues(1)
+        ranks.Reduce(mine, rows, vtkCommunicator.SUM_OP, 0)
+        if ranks.GetLocalProcessId() == 0:
+            print(f"TOLD {how}|{rows.GetValue(0)}|{statistics.median(seconds[1:])}", flush=True)
 
 
 def told_by(count, path, rounds):
-    """way: (rows of all ranks, seconds of the slowest one)."""
+    """way: (rows of all ranks, seconds from one barrier to the next)."""
     done = subprocess.run(["mpiexec", "-n", str(count), "pvbatch", "--sym", __file__, "--inside", path, str(rounds)],
                           stdout=subprocess.PIPE, text=True, check=True, env={**os.environ, **MPI})
-    told = {how: (0, 0.0) for how in HOW}
-    for line in done.stdout.splitlines():
-        if line.startswith("TOLD "):
-            how, rows, seconds = line[5:].split("|")
-            told[how] = (told[how][0] + int(rows), max(told[how][1], float(seconds)))
-    return told
+    told = (line[5:].split("|") for line in done.stdout.splitlines() if line.startswith("TOLD "))
+    return {how: (int(rows), float(seconds)) for how, rows, seconds in told}
 
 
 def study_of(study):
