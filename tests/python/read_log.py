@@ -226,10 +226,10 @@ log = read(written("LAMMPS (2 Aug 2023)\ntimestep 0.5\nPer MPI rank memory alloc
                    "WARNING: something (src/fix.cpp:1)\n        10   inf            3e-07         \nLoop time of 1 on 1 procs\n"))
 same(numpy.column_stack([log[name] for name in ("Step", "Temp", "v_a")]), numbers)
 same(log.times, [0, 5])
-for names in ("'Step', 'Temp', 'v_a', ", "Step, Temp, v_a, ", "Step, Temp, v_a"):
+for names in ("'Step', 'Temp', 'v_a[1]', ", "Step, Temp, v_a[1], ", "Step, Temp, v_a[1]"):
     log = read(written(f"Per MPI rank memory allocation (min/avg/max) = 4 | 4 | 4 Mbytes\n---\nkeywords: [{names}]\ndata:\n"
                        "  - [0, 1.5, -2, ]\nWARNING: something\n  - [10, inf, 3e-07]\n...\nLoop time of 1 on 1 procs\n"))
-    same(numpy.column_stack([log[name] for name in ("Step", "Temp", "v_a")]), numbers)
+    same(numpy.column_stack([log[name] for name in ("Step", "Temp", "v_a[1]")]), numbers)
 log = read(written("keywords: ['Step', 'Temp', ]\ndata:\n  - [0, 1.5, ]\n  - [10, 2.5"), "made.txt:4: the last line ends early")
 assert len(log) == 1
 BLOCKS = ("------------ Step              0 ----- CPU =            0 (sec) -------------\nTemp     =   1.5 v_a      =     -2\n"
@@ -305,10 +305,21 @@ log = read(written(RENAMED + PER + "   Step     Kinetic Energy Potential, all of
 assert log.columns == ["Step", "Kinetic Energy", "Potential, all of it"] and log.steps.tolist() == [0, 10]
 log = read(written(PER + "---\nkeywords: ['Step', 'Kinetic Energy', 'Potential, all of it', ]\ndata:\n  - [0, 1.5, -2, ]\n...\nLoop time of 1\n"))
 assert log.columns == ["Step", "Kinetic Energy", "Potential, all of it"]
-log = read(written(BLOCKS.replace("Temp    ", "Kinetic Energy")))
+log = read(written('thermo_modify colname temp "Kinetic Energy"\n' + BLOCKS.replace("Temp    ", "Kinetic Energy")))
 assert log["Kinetic Energy"].tolist() == [1.5, numpy.inf] and log["v_a"].tolist() == [-2, 3e-7]
-log = read(written('thermo_modify colname step "MD step"\n' + PER + "  MD step         E_x            E_y\n" + ROWS))
-assert log.steps.tolist() == [0, 10] and log.columns == ["Step", "E_x", "E_y"]
+for column in ("step", "1", "-6"):
+    log = read(written(f'thermo_modify colname {column} "MD step"\n' + PER + "  MD step         E_x            E_y\n" + ROWS))
+    assert log.steps.tolist() == [0, 10] and log.columns == ["Step", "E_x", "E_y"]
+# a renamed column by its number is the timestep if the style says so, until the next style or `default`
+NAMED = "thermo_style custom {}\nthermo_modify colname {} MD\n"
+COLUMNS = PER + "         MD           E_x            E_y\n" + ROWS
+for before in (NAMED.format("step ke pe", 1), NAMED.format("step ke pe", -3)):
+    assert read(written(before + COLUMNS)).columns == ["Step", "E_x", "E_y"]
+for before in (NAMED.format("ke step pe", 1), NAMED.format("step ke pe", 1) + "thermo_style custom step ke pe\n",
+               NAMED.format("step ke pe", 1) + "thermo_modify colname default\n"):
+    assert read(written(before + COLUMNS), "without it, whose rows are numbered")["MD"].tolist() == [0, 10]
+log = read(written(BLOCKS.replace("v_a      =     -2\n", "v_a      =     -2\nNeighbor list builds = 5\n")))
+assert log.columns == ["Step", "CPU", "Temp", "v_a"]
 NUMBERED = "without it, whose rows are numbered"
 log = read(written(MEMORY + "KinEng Volume \n 1 2 \n 3 4 \nLoop time of 1\n" + MEMORY + "KinEng \n 5 \nLoop time of 1\n"), "made.txt:2: expected the")
 assert log.steps.tolist() == log.times.tolist() == [0, 1, 2] and log["KinEng"].tolist() == [1, 3, 5] and len(log.runs) == 2
@@ -326,16 +337,18 @@ log = read(written(text.format(0.1, 0, 10) + "reset_timestep 20\n" + text.format
 assert log.times.tolist() == [0, 1, 2, 4]
 log = read(written(text.format(0.1, 0, 10) + "reset_timestep 20 time 7\n" + text.format(0.2, 20, 30) + text.format(0.1, 30, 40)))
 assert log.times.tolist() == [0, 1, 7, 9, 10]
+logs = [written(text.format(0.1, 0, 10), "first.txt"), written("reset_timestep 5\n" + text.format(0.1, 5, 15), "second.txt")]
+assert [run.times.tolist() for run in read(logs).runs] == [[0, 1], [0, 1]]
 same(read(written(text.format(0.1, 0, 10) + "reset_timestep 5\n" + text.format(0.1, 5, 15)), dt=1).all_rows.times, [0, 10, 5, 15])
 log = read(written("timestep 0.1\nStep Time\n0 0\n10 0.5\nLoop time of 1\n" + text.format(0.2, 10, 20)))
 assert log.times.tolist() == [0, 0.5, 2.5]
 
 # ---- a last row without a line feed, in which nothing can be missing ----
-READ = "made.{}:{}: the last line has no line feed: it is read"
-assert read(written(TABLE[:-1]), READ.format("txt", 4)).steps.tolist() == [0, 10, 20]
-assert read(written(gzip.compress(TABLE[:-2].encode()), "made.gz"), READ.format("gz", 4))["Press"].tolist() == [2, 4, 6]
-assert len(read(written(gzip.compress(BLOCKS[:-1].encode()), "made.gz"), READ.format("gz", 4))) == 2
-assert len(read(written("keywords: ['Step', 'Temp', ]\ndata:\n  - [0, 1.5, ]\n  - [10, 2.5, ]"), READ.format("txt", 4))) == 2
+assert read(written(TABLE[:-1])).steps.tolist() == [0, 10, 20]
+assert read(written(gzip.compress(TABLE[:-2].encode()), "made.gz"))["Press"].tolist() == [2, 4, 6]
+assert len(read(written(gzip.compress(BLOCKS[:-1].encode()), "made.gz"))) == 2
+assert len(read(written("keywords: ['Step', 'Temp', ]\ndata:\n  - [0, 1.5, ]\n  - [10, 2.5, ]"))) == 2
+assert len(read(written(TABLE + "Loop time of 1"))) == 3
 for end in (-2, -3):
     assert len(read(written(TABLE[:end]), "made.txt:4: the last line ends early and is left out")) == 2
 

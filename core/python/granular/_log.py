@@ -22,22 +22,25 @@ if TYPE_CHECKING:
 #: The timesteps that LAMMPS and LIGGGHTS use after the command `units`.
 _DEFAULTS = {b"lj": b"0.005", b"real": b"1.0", b"metal": b"0.001", b"si": b"1e-8", b"cgs": b"1e-8", b"electron": b"0.001", b"micro": b"2.0",
              b"nano": b"0.00045"}
+#: The columns of `thermo_style one`, which is the first one.
+_ONE = [b"step", b"temp", b"epair", b"emol", b"etotal", b"press"]
 #: Lines that say something of the tables. The last group of a line names the method of the reader that takes it.
 _KNOWN = re.compile(rb"""\s*(?:
     (?P<end>Loop\s+time|(?:LAMMPS|LIGGGHTS)\s+\()
     |(?P<memory>Per\s+MPI\s+rank\s+memory|Memory\s+usage\s+per\s+processor)\s
     |(?P<names>Step\s)
-    |keywords:\s*(?P<keywords>.*)
+    |keywords:\s*\[(?P<keywords>.*)\]
     |-\s+\[(?P<row>.*)\]\s*$
     |-{4,}\s*Step\s+(?P<step>-?\d+)\s+-{2,}\s*CPU\s*=\s*(?P<block>\S+)
     |(?:timestep|Time\s+step\s+:)\s+(?P<timestep>\S+)
     |units\s+(?P<units>\S+)
     |reset_timestep\s+(?P<reset>\d{1,19}(?:\s+time\s+\S+)?)
+    |thermo_style\s+(?P<style>.*)
     |thermo_modify\s(?P<colname>.*\scolname\s.*|colname\s.*)
 )""", re.VERBOSE)
-# `colname 3 "Kinetic Energy"`, and the names in keywords: ['Step', "v_a", Temp, ]
-_COLNAME = re.compile(rb"""\bcolname\s+(\S+)\s+(?:"([^"]+)"|'([^']+)'|(\S+))""")
-_KEYWORD = re.compile(rb"""\s*(?:"([^"]*)"|'([^']*)'|([^\s,\[\]][^,\]]*))""")
+# `colname 3 "Kinetic Energy"` or `colname default`, and the names in keywords: ['Step', "v_a", c_b[1], ]
+_COLNAME = re.compile(rb"""\bcolname\s+(?:(default)(?!\S)|(\S+)\s+(?:"([^"]+)"|'([^']+)'|(\S+)))""")
+_KEYWORD = re.compile(rb"""\s*(?:"([^"]*)"|'([^']*)'|([^\s,][^,]*))""")
 _PAIR = re.compile(rb"([^\s=][^=]*?) = (\S+)(?: |$)")
 _LARGEST = (1 << 63) - 1
 _MOST_DIGITS = 100
@@ -221,10 +224,10 @@ class _Run:
 
 
 class _Reader:
-    """Finds the tables among the lines of a log."""
+    """Finds the tables among the lines of a log, which may go on after a run of another log."""
 
-    def __init__(self, path: str, dt: bytes | None):
-        self.path, self._dt = path, dt
+    def __init__(self, path: str, before: _Run | None):
+        self.path, self._before, self._dt = path, before, before.dt if before else None
         self.runs: list[_Run] = []
         self._line, self._words, self._number = b"\n", [b""], 0  # that is read now
         self._run: _Run | None = None
@@ -233,8 +236,8 @@ class _Reader:
         self._header_line, self._is_sure = 0, False
         self._block: tuple[int, dict[str, float]] | None = None  # that is read now
         self._after_memory = self._knows_memory = False
-        self._colnames: dict[bytes, None] = {}
-        self._step_name = b"Step"
+        self._style = _ONE  # the columns by their keywords
+        self._colnames: dict[bytes, bytes] = {}  # names by keywords, or by numbers
         self._reset: list[float] = []  # the timestep, and the time if it is told
         self._left_out, self._first_left_out = 0, ""
         self._empty: tuple[int, str] | None = None  # the first table without rows
@@ -305,9 +308,8 @@ class _Reader:
             self._fail_without_tables()
         if is_cut:
             _warn(f"{self._where(0)}: expected complete gzip data, got data that end early: the rows before the end are read")
-        if self._run and self._line[-1:] != b"\n":
-            told = "has no line feed: it is read" if is_whole else "ends early and is left out"
-            _warn(f"{self._where(self._number)}: the last line {told}")
+        if self._run and not is_whole:
+            _warn(f"{self._where(self._number)}: the last line ends early and is left out")
         elif is_short:
             _warn(f"{self._where(self._number)}: the last block ends early and is left out")
         if self._is_empty_told and self._empty:
@@ -374,12 +376,18 @@ class _Reader:
         """Returns the names in the header, so many if that is possible. Names may have blanks, two between columns."""
         header, names = self._header or [], []
         if isinstance(header, bytes):
-            told = [rb"(?<!\S)" + re.escape(name) + rb"(?!\S)" for name in self._colnames]
+            told = [rb"(?<!\S)" + re.escape(name) + rb"(?!\S)" for name in self._colnames.values()]
             ways = header.split(), re.split(rb"\s{2,}", header.strip()), re.findall(b"|".join([*told, rb"\S+"]), header)
             names = [os.fsdecode(name) for name in next((way for way in ways if len(way) == width), ways[0])]
         else:
             names = header
-        return names if "Step" in names else ["Step" if name == os.fsdecode(self._step_name) else name for name in names]
+        return names if "Step" in names else ["Step" if name == self._step_name() else name for name in names]
+
+    def _step_name(self) -> str:
+        """Returns the name that `thermo_modify colname` gave to the timestep, by its keyword or its number."""
+        at, count = self._style.index(b"step") if b"step" in self._style else -1, len(self._style)
+        ways = [b"step", *([b"%d" % (at + 1), b"%d" % (at - count)] if at >= 0 else [])]
+        return os.fsdecode(next((name for key, name in reversed(self._colnames.items()) if key in ways), b"Step"))
 
     def _begin(self, words: list[bytes]) -> bool:
         """Begins a table if these words are its first row. If the names are not sure, the row must follow them at once."""
@@ -404,8 +412,8 @@ class _Reader:
         """Adds a run with its first row, and the time that `reset_timestep` gives to it: 0 if the timestep becomes smaller."""
         from fractions import Fraction
 
-        step, *time = self._reset or [-1]
-        if step == run.steps[0] and (time or (self.runs and step < self.runs[-1].steps[-1])):
+        (step, *time), before = self._reset or [-1], self.runs[-1] if self.runs else self._before
+        if step == run.steps[0] and (time or (before and step < before.steps[-1])):
             run.reset = Fraction(repr(time[-1] if time else 0.0))
         self._reset = []
         self.runs.append(run)
@@ -494,12 +502,18 @@ class _Reader:
         step, *time = found["reset"].split()
         self._reset = [int(step), *(number for number in _numbers(time[1:]) or [] if math.isfinite(number))]
 
+    def _on_style(self, found: Any) -> None:
+        """The echo of `thermo_style custom step ke`, which takes the names of the columns away."""
+        style, *words = found["style"].split() or [b""]
+        self._style, self._colnames = words if style == b"custom" else _ONE, {}
+
     def _on_colname(self, _: Any) -> None:
         """The echo of `thermo_modify colname 3 "Kinetic Energy"`."""
-        for column, *ways in _COLNAME.findall(self._line):
-            self._colnames[b"".join(ways)] = None
-            if column.lower() in (b"1", b"step"):
-                self._step_name = b"".join(ways)
+        for default, column, *ways in _COLNAME.findall(self._line):
+            if default:
+                self._colnames = {}
+            else:
+                self._colnames[column] = b"".join(ways)
 
     # ---- blocks of thermo_style multi ----
     def _on_block(self, found: Any) -> None:
@@ -543,6 +557,8 @@ class _Reader:
         while end < len(line):
             pair = _PAIR.match(line, end)  # from where the last one ends: a long line costs time in proportion
             if pair is None:
+                return False
+            if b" " in pair[1] and pair[1] not in self._colnames.values():
                 return False
             pairs.append(pair.groups())
             end = pair.end()
@@ -645,7 +661,7 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
     names = [os.path.abspath(os.fsdecode(path)) for path in given]
     rows: list[_Run] = []
     for name in names:
-        rows += _Reader(name, rows[-1].dt if rows else None).read()  # a log that begins with a restart file may not say it again
+        rows += _Reader(name, rows[-1] if rows else None).read()  # a log that begins with a restart file may not tell its timestep
     rows = _number_rows(rows)
     times, runs, start = _times(rows, dt), [], 0
     for run in rows:
