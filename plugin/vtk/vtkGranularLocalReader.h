@@ -13,7 +13,7 @@
  * - `id1` and `id2`, the particles at the ends, are vtkTypeInt64Array; `btype` and `periodic` are vtkTypeInt32Array; others are double;
  * - three columns x, y, z of a vector become one array: `force`, `torque`, `v1` and so on;
  * - `length` is the length of the drawn line, over all its parts if it is split;
- * - `position1` and `position2` are the ends as the file has them, only if selected;
+ * - `position1` and `position2` are the ends as the file has them; unlike the other arrays, they are off by default;
  * - `row` and `part`, if lines are split: the number of the row in the frame, from 0 (vtkTypeInt64Array), and the number of the part,
  *   0 at the first end (vtkTypeInt32Array);
  * - columns of the file that are named `length`, `row` or `part` become `length_2` and so on.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of every kind where the system gives little: open files, memory, threads, stacks; and in a locale with a decimal comma.
+// Files of every kind where the system gives little: open files, memory, stacks; and in a locale with a decimal comma.
 // GRANULAR_PLACES: the number of files of a series; also of limits of memory, a fiftieth.
 #include "runs.h"
 

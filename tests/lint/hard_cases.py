@@ -6,6 +6,7 @@
 
 The bounds in the table are those that the tests hold; the worst errors and the numbers of trials are what they told when
 the table was made."""
+import json
 import os
 import re
 import subprocess
@@ -75,11 +76,14 @@ def check(root):
 
 def figures(root, wanted):
     """What the tests tell: {(subject, quantity): (worst, trials)}; several instances of a test together."""
-    names = "|".join(sorted({case[4].split(": ")[1].split(".")[-1] for case in wanted}))
-    told = {}
+    build, told = os.path.join(root, "build", "release"), {}
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as stream:
+        program = {os.path.relpath(entry["file"], os.path.abspath(root)): re.search(r"/test_(\w+)\.dir/", entry["command"])
+                   for entry in json.load(stream)}
+    names = "|".join(sorted({program[case[4].split(": ")[0]].group(1) for case in wanted}))
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["ctest", "--test-dir", os.path.join(root, "build", "release"), "--no-tests=error", "-R",
-                        f"({names})", "--output-on-failure"], check=True, stdout=subprocess.DEVNULL,
+        subprocess.run(["ctest", "--test-dir", build, "--no-tests=error", "-R", rf"^({names})(\.[0-9]+)?$", "--output-on-failure"],
+                       check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "GRANULAR_HARD_CASES": folder})
         for name in os.listdir(folder):
             with open(os.path.join(folder, name), encoding="utf-8") as stream:
