@@ -46,7 +46,7 @@ void with_type(ValueType type, Use&& use)
     case ValueType::Float64:
       return use(static_cast<double*>(nullptr));
     default:
-      throw BadArgument("expected a type of granular_type");
+      throw ArgumentError("expected a type of granular_type");
   }
 }
 
@@ -100,17 +100,17 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
     static_cast<std::size_t>(frame.rows) * static_cast<std::size_t>(array.components);
   if (to.values < values || (to.data == nullptr && values > 0))
   {
-    throw BadArgument("array '" + array.name + "': expected room for " + std::to_string(values) +
+    throw ArgumentError("array '" + array.name + "': expected room for " + std::to_string(values) +
       " values, got " + std::to_string(to.data == nullptr ? 0 : to.values));
   }
   if (to.type < GRANULAR_INT8 || to.type > GRANULAR_TEXT)
   {
-    throw BadArgument("array '" + array.name + "': expected a type of granular_type, got " +
+    throw ArgumentError("array '" + array.name + "': expected a type of granular_type, got " +
       std::to_string(to.type));
   }
   if (array.type == ValueType::Text && to.type != GRANULAR_TEXT)
   {
-    throw BadArgument("array '" + array.name + "': expected the type GRANULAR_TEXT for words");
+    throw ArgumentError("array '" + array.name + "': expected the type GRANULAR_TEXT for words");
   }
   with_type(static_cast<ValueType>(to.type),
     [&](auto* target_type)
@@ -127,7 +127,7 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
             const std::optional<To> value = convert<To>(from[i]);
             if (!value)
             {
-              throw BadArgument("array '" + array.name + "', value " + std::to_string(i) +
+              throw ArgumentError("array '" + array.name + "', value " + std::to_string(i) +
                 ": expected a number of the wanted type, got " + digits_of(from[i]));
             }
             std::memcpy(target + i * sizeof(To), &*value, sizeof(To));

@@ -4,6 +4,7 @@
 #include "granular/common/words.h"
 #include "granular/local/local_columns.h"
 #include "granular/particles/column_arrays.h"
+#include "granular/runs/kind.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +34,7 @@ void check_array(const granular_array& array, std::int64_t rows)
   {
     if (!is)
     {
-      throw BadArgument("array '" + name + "': expected " + what);
+      throw ArgumentError("array '" + name + "': expected " + what);
     }
   };
   expect(!name.empty(), "a name");
@@ -72,15 +73,15 @@ void expect_own_columns(const FrameView& view, RowKind kind)
       const KnownColumn* const known = find_known_column(name);
       if (view.points && known != nullptr && is_position(known->role))
       {
-        throw BadArgument("array '" + array.name +
+        throw ArgumentError("array '" + array.name +
           "': expected no coordinates beside 'points', from which they are made, got '" + name +
           "'");
       }
       const auto [other, fresh] = taken.try_emplace(name, array.name);
       if (!fresh)
       {
-        throw BadArgument("array '" + array.name + "': expected columns of its own, got '" + name +
-          "', which array '" + other->second + "' has, too");
+        throw ArgumentError("array '" + array.name + "': expected columns of its own, got '" +
+          name + "', which array '" + other->second + "' has, too");
       }
     }
   }
@@ -133,26 +134,28 @@ void take_header(granular_frame& frame, DumpFrame& rows)
 }
 }
 
-const KnownColumn* find_known(std::string_view array, std::span<const KnownColumn> table) noexcept
+void take_table(granular_frame& frame, LocalFrame&& table, std::span<const KnownColumn> columns)
 {
-  const auto part = std::ranges::find(table, array, &KnownColumn::array);
-  return part == table.end() ? find_known_column(array, table) : &*part;
-}
-
-void take_rows(granular_frame& frame, DumpFrame&& rows, std::span<const KnownColumn> table)
-{
+  if (table.has_lines && table.lines.rows.empty())
+  {
+    add_array(frame, ends_name, ValueType::Float64, 6, std::move(table.lines.points),
+      find_known("x1", columns));
+    add_array(frame, "length", ValueType::Float64, 1, std::move(table.lines.lengths),
+      find_known("length", columns));
+  }
+  DumpFrame& rows = table.table;
   take_header(frame, rows);
   if (rows.points.data() != nullptr)
   {
     const std::size_t values = 3 * static_cast<std::size_t>(rows.rows);
     const bool single = values > 0 && rows.points.bytes() == values * sizeof(float);
     add_array(frame, points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
-      std::move(rows.points), find_known("x", table));
+      std::move(rows.points), find_known("x", columns));
   }
   for (DumpArray& array : rows.arrays)
   {
     add_array(frame, array.info.name, array.info.type, array.info.components(),
-      std::move(array.block), find_known(array.info.name, table));
+      std::move(array.block), find_known(array.info.name, columns));
     frame.arrays.back().words = std::move(array.words);
   }
   for (FrameArray& array : frame.arrays)
@@ -164,19 +167,6 @@ void take_rows(granular_frame& frame, DumpFrame&& rows, std::span<const KnownCol
   }
 }
 
-void take_lines(granular_frame& frame, LocalFrame&& local)
-{
-  frame.kind = RowKind::Lines;
-  if (local.has_lines && local.lines.rows.empty())
-  {
-    add_array(frame, ends_name, ValueType::Float64, 6, std::move(local.lines.points),
-      find_known("x1", local_known_columns()));
-    add_array(frame, "length", ValueType::Float64, 1, std::move(local.lines.lengths),
-      find_known("length", local_known_columns()));
-  }
-  take_rows(frame, std::move(local.table), local_known_columns());
-}
-
 const FrameArray& find_array(const granular_frame& frame, std::string_view name)
 {
   const FrameArray* const found = frame.find(name);
@@ -184,7 +174,7 @@ const FrameArray& find_array(const granular_frame& frame, std::string_view name)
   {
     return *found;
   }
-  throw BadArgument("expected an array of " + join_words(frame.arrays, ", ", &FrameArray::name) +
+  throw ArgumentError("expected an array of " + join_words(frame.arrays, ", ", &FrameArray::name) +
     ", got '" + std::string(name) + "'");
 }
 
@@ -251,7 +241,7 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
 {
   if (content.rows < 0 || (content.arrays == nullptr && content.array_count > 0))
   {
-    throw BadArgument(content.rows < 0
+    throw ArgumentError(content.rows < 0
         ? "expected at least 0 rows, got " + std::to_string(content.rows)
         : "expected arrays, got null");
   }
@@ -276,11 +266,11 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
   }
   if (kind == RowKind::Particles && content.rows > 0 && !view.points)
   {
-    throw BadArgument("expected an array 'points' with the positions of the particles, got none");
+    throw ArgumentError("expected an array 'points' with the positions of the particles, got none");
   }
   if (ends_ && (view.find("position1") != nullptr || view.find("position2") != nullptr))
   {
-    throw BadArgument("expected 'ends', or 'position1' and 'position2', got both");
+    throw ArgumentError("expected 'ends', or 'position1' and 'position2', got both");
   }
   this->finish(kind);
   if (kind == RowKind::Particles || kind == RowKind::Lines)
@@ -325,7 +315,7 @@ void WriteView::add(std::string name, ValueType type, int components, const void
       const std::int32_t word = indices[row];
       if (word < 0 || static_cast<std::size_t>(word) >= words.size())
       {
-        throw BadArgument("array '" + array.name + "': expected indices of " +
+        throw ArgumentError("array '" + array.name + "': expected indices of " +
           std::to_string(words.size()) + " words, got " + std::to_string(word));
       }
       texts->emplace_back(words[static_cast<std::size_t>(word)]);

@@ -7,9 +7,8 @@
 
 #include "granular/common/error.h"
 #include "granular/frames/run_index.h"
-#include "granular/local/local_reader.h"
-#include "granular/particles/dump_frame.h"
 #include "granular/particles/frame_view.h"
+#include "granular/runs/table.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,12 +21,6 @@
 
 namespace granular_c
 {
-/// An argument of the caller that cannot be used.
-class BadArgument : public granular::Error
-{
-  using Error::Error;
-};
-
 /// An array of a frame that was read.
 struct FrameArray
 {
@@ -41,14 +34,7 @@ struct FrameArray
   const granular::KnownColumn* known = nullptr; ///< its unit and meaning; null: not known
 };
 
-/// The kind of rows that a frame has, which decides how it is written.
-enum class RowKind : std::uint8_t
-{
-  Particles,
-  Lines, ///< contacts and bonds
-  Cells,
-  Subdomains
-};
+using granular::RowKind;
 }
 
 /// A frame that was read. Arrays do not move: strings and pointers to them are given away.
@@ -91,21 +77,14 @@ void add_array(granular_frame& frame, std::string name, granular::ValueType type
     { std::move(name), type, components, data, std::move(memory), {}, {}, known });
 }
 
-/// Takes the rows of a dump, or of a table of local data with its ends; `table` knows their units.
-void take_rows(
-  granular_frame& frame, granular::DumpFrame&& rows, std::span<const granular::KnownColumn> table);
+/// Takes a table that was read, whose units `columns` knows.
+void take_table(granular_frame& frame, granular::LocalFrame&& table,
+  std::span<const granular::KnownColumn> columns);
 
-/// Takes lines and their rows.
-void take_lines(granular_frame& frame, granular::LocalFrame&& local);
-
-/// Returns the row of a table that knows an array by its name or by that of a column in it, or null.
-const granular::KnownColumn* find_known(
-  std::string_view array, std::span<const granular::KnownColumn> table) noexcept;
-
-/// Returns an array by its name. Throws BadArgument that lists those there are.
+/// Returns an array by its name. Throws granular::ArgumentError that lists those there are.
 const FrameArray& find_array(const granular_frame& frame, std::string_view name);
 
-/// Copies an array into memory of the caller. Throws BadArgument if there is too little room, or a number does not fit the
+/// Copies an array into memory of the caller. Throws granular::ArgumentError if there is too little room, or a number does not fit the
 /// type.
 void copy_array(const granular_frame& frame, const granular_destination& to);
 

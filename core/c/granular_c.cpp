@@ -63,9 +63,10 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        const Kind& kind = run->kind();
-        needed(facts, "facts") = { kind.kind, static_cast<std::int64_t>(run->index.size()),
-          static_cast<std::int64_t>(run->index.files().size()), kind.has_bonds ? 2 : 1 };
+        const granular::Kind& kind = run->kind();
+        needed(facts, "facts") = { static_cast<granular_kind>(kind.number),
+          static_cast<std::int64_t>(run->index().size()),
+          static_cast<std::int64_t>(run->index().files().size()), kind.has_bonds ? 2 : 1 };
       });
   }
 
@@ -77,11 +78,11 @@ extern "C"
         const std::shared_lock lock(needed(run, "run").mutex);
         const std::size_t number = run->number_of(frame);
         std::int64_t rows = 0;
-        for (const granular::FramePiece& piece : run->index.pieces(number))
+        for (const granular::FramePiece& piece : run->index().pieces(number))
         {
           rows += piece.entry.rows;
         }
-        const granular::FramePiece first = run->index.first_piece(number);
+        const granular::FramePiece first = run->index().first_piece(number);
         needed(facts, "facts") = { first.entry.timestep, run->times[number], rows,
           first.file.path.c_str() };
       });
@@ -93,11 +94,11 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        const auto& files = run->index.files();
+        const auto& files = run->index().files();
         if (file < 0 || file >= static_cast<std::int64_t>(files.size()))
         {
-          throw BadArgument("expected a file from 0 to " + std::to_string(files.size() - 1) +
-            ", got " + std::to_string(file));
+          throw granular::ArgumentError("expected a file from 0 to " +
+            std::to_string(files.size() - 1) + ", got " + std::to_string(file));
         }
         const auto number = static_cast<std::size_t>(file);
         const granular::FileIndex& index = files[number];
@@ -126,7 +127,7 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        const std::vector<OfferedArray>& all = run->arrays(run->number_of(frame), table);
+        const std::vector<granular::OfferedArray>& all = run->arrays(run->number_of(frame), table);
         needed(count, "count") = all.size();
         for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
         {
@@ -161,8 +162,9 @@ extern "C"
       {
         needed(out, "out") = nullptr;
         const std::shared_lock lock(needed(run, "run").mutex);
-        const Wanted wanted(taken(request, granular_request_init));
-        Caller caller(wanted.request.progress, wanted.request.notice, wanted.request.user);
+        const granular_request given = taken(request, granular_request_init);
+        const Wanted wanted(given);
+        Caller caller(given.progress, given.notice, given.user);
         *out = run->read(run->number_of(frame), wanted, caller).release();
       });
   }
@@ -255,7 +257,7 @@ extern "C"
         const std::size_t count = needed(frame, "frame").arrays.size();
         if (number >= count)
         {
-          throw BadArgument("expected an array from 0 to " + std::to_string(count) +
+          throw granular::ArgumentError("expected an array from 0 to " + std::to_string(count) +
             " exclusive, got " + std::to_string(number));
         }
         needed(array, "array") = array_of(*frame, frame->arrays[number]);

@@ -38,7 +38,8 @@ granular::NewFile& unfinished(granular_file* file)
 {
   if (needed(file, "a file").finished)
   {
-    throw BadArgument("expected a file that is being written, got one that is finished");
+    throw granular::ArgumentError(
+      "expected a file that is being written, got one that is finished");
   }
   return file->file;
 }
@@ -114,7 +115,7 @@ extern "C"
           {
             constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
               "subdomains" };
-            throw BadArgument(std::string("expected a frame of ") +
+            throw granular::ArgumentError(std::string("expected a frame of ") +
               names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
               names[static_cast<std::size_t>(frame->kind)]);
           }

@@ -42,13 +42,12 @@ bool is(const granular::Error& error) noexcept
 
 granular_status status_of(const granular::Error& error) noexcept
 {
-  return is<BadArgument>(error)        ? GRANULAR_BAD_ARGUMENT
-    : is<granular::IoError>(error)     ? GRANULAR_IO_ERROR
+  return is<granular::IoError>(error)  ? GRANULAR_IO_ERROR
     : is<granular::FormatError>(error) ? GRANULAR_FORMAT_ERROR
     : is<granular::LimitError>(error)  ? GRANULAR_LIMIT_ERROR
     : is<granular::UnsupportedError>(error)
     ? GRANULAR_UNSUPPORTED
-    : GRANULAR_BAD_ARGUMENT; // a format, a column or a frame
+    : GRANULAR_BAD_ARGUMENT; // a choice, a format, a column or a frame
 }
 }
 

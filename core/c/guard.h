@@ -58,7 +58,7 @@ Pointer& needed(Pointer* pointer, const char* name)
 {
   if (pointer == nullptr)
   {
-    throw BadArgument(std::string("expected ") + name + ", got null");
+    throw granular::ArgumentError(std::string("expected ") + name + ", got null");
   }
   return *pointer;
 }
@@ -73,7 +73,7 @@ Struct taken(const Struct* given, void (*init)(Struct*))
   {
     if (given->size < sizeof(std::size_t) || given->size > sizeof(Struct))
     {
-      throw BadArgument("expected a struct of up to " + std::to_string(sizeof(Struct)) +
+      throw granular::ArgumentError("expected a struct of up to " + std::to_string(sizeof(Struct)) +
         " bytes that its init function has filled, got size " + std::to_string(given->size));
     }
     std::memcpy(&made, given, given->size);
@@ -90,7 +90,7 @@ inline std::vector<std::string> texts_of(const char* const* texts, std::size_t c
   }
   if (made.empty())
   {
-    throw BadArgument("expected at least one name, got none");
+    throw granular::ArgumentError("expected at least one name, got none");
   }
   return made;
 }

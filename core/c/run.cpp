@@ -3,6 +3,7 @@
 
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
+#include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 
@@ -17,39 +18,38 @@ using namespace granular;
 
 namespace
 {
-const Kind& find_kind(granular_kind wanted, const std::string& path)
+const Kind& choose_kind(granular_kind wanted, const std::string& path)
 {
-  for (const Kind& kind : kinds())
+  if (wanted == GRANULAR_KIND_AUTOMATIC)
   {
-    if (wanted == GRANULAR_KIND_AUTOMATIC ? kind.is_file(path) : kind.kind == wanted)
-    {
-      return kind;
-    }
+    return kind_of_file(path);
   }
-  if (wanted != GRANULAR_KIND_AUTOMATIC)
+  const auto found = std::ranges::find(granular::kinds(), static_cast<int>(wanted), &Kind::number);
+  if (found == granular::kinds().end())
   {
-    throw BadArgument("expected a kind of granular_kind, got " + std::to_string(wanted));
+    throw ArgumentError("expected a kind of granular_kind, got " + std::to_string(wanted));
   }
-  return kinds().front(); // which says what it expected
+  return **found;
 }
 
-IndexOptions index_options(const granular_open_options& options, const Kind& kind)
+RunOptions run_options(const granular_open_options& options)
 {
-  IndexOptions made;
-  made.format = &kind.format();
+  RunOptions made;
   if (options.repeated_steps < 0 || options.repeated_steps > 2)
   {
-    throw BadArgument(
+    throw ArgumentError(
       "expected repeated_steps from 0 to 2, got " + std::to_string(options.repeated_steps));
   }
-  made.repeated_steps = kind.has_pieces ? static_cast<RepeatedSteps>(options.repeated_steps)
-                                        : RepeatedSteps::Last; // no file is a piece of another
+  made.repeated_steps = static_cast<RepeatedSteps>(options.repeated_steps);
   std::string names = text_of(options.column_names);
   std::ranges::replace(names, ',', ' ');
   for (const std::string_view name : split_words(names))
   {
     made.column_names.emplace_back(name);
   }
+  made.preset = text_of(options.preset);
+  made.column_map = text_of(options.column_map);
+  made.atom_style = text_of(options.atom_style);
   made.threads = options.threads > 0 ? options.threads : available_cores();
   return made;
 }
@@ -67,36 +67,43 @@ void Caller::tell(const Notices& notices) const
 }
 
 Wanted::Wanted(const granular_request& given)
-  : request(given)
+  : table(given.table)
 {
-  if (request.stride < 1)
+  if (given.stride < 1)
   {
-    throw BadArgument("expected a stride of at least 1, got " + std::to_string(request.stride));
+    throw ArgumentError("expected a stride of at least 1, got " + std::to_string(given.stride));
   }
-  if (request.coordinates < GRANULAR_ABSOLUTE || request.coordinates > GRANULAR_SCALED)
+  if (given.coordinates < GRANULAR_ABSOLUTE || given.coordinates > GRANULAR_SCALED)
   {
-    throw BadArgument(
-      "expected coordinates from 0 to 2, got " + std::to_string(request.coordinates));
+    throw ArgumentError(
+      "expected coordinates from 0 to 2, got " + std::to_string(given.coordinates));
   }
-  if (request.arrays == nullptr && request.array_count > 0)
+  if (given.arrays == nullptr && given.array_count > 0)
   {
-    throw BadArgument("expected names of arrays, got null");
+    throw ArgumentError("expected names of arrays, got null");
   }
-  all = request.arrays == nullptr;
-  for (std::size_t i = 0; i < request.array_count; ++i)
+  for (std::size_t i = 0; i < given.array_count; ++i)
   {
-    if (request.arrays[i] == nullptr)
+    if (given.arrays[i] == nullptr)
     {
-      throw BadArgument("expected names of arrays, got null");
+      throw ArgumentError("expected names of arrays, got null");
     }
-    names.emplace_back(request.arrays[i]);
+    names.emplace_back(given.arrays[i]);
   }
-  threads = request.threads > 0 ? request.threads : available_cores();
-}
-
-bool Wanted::is_wanted(std::string_view name, bool is_usual) const
-{
-  return all ? is_usual : std::ranges::find(names, name) != names.end();
+  const bool all = given.arrays == nullptr;
+  const Request::Choice choice = [all, list = names](std::string_view name, bool is_usual)
+  { return all ? is_usual : std::ranges::find(list, name) != list.end(); };
+  request.coordinates = static_cast<Coordinates>(given.coordinates);
+  request.points = given.points != 0 && choice(points_name, true);
+  request.single_precision = given.single_precision != 0;
+  std::copy_n(given.origin, 3, request.point_origin.begin());
+  request.sort_by_id = given.sort_by_id != 0;
+  request.stride = given.stride;
+  std::copy_n(given.region, 6, request.region.begin());
+  request.bonds = table == 1;
+  request.wanted = request.bonds ? [](std::string_view, bool) { return false; } : choice;
+  request.wanted_bonds = choice;
+  request.threads = given.threads > 0 ? given.threads : available_cores();
 }
 }
 
@@ -131,18 +138,15 @@ public:
 }
 
 granular_run::granular_run(std::vector<std::string> patterns, const granular_open_options& options)
-  : timestep_size(options.timestep_size)
-  , preset(text_of(options.preset))
-  , column_map(text_of(options.column_map))
-  , atom_style(text_of(options.atom_style))
+  : timestep_size_(options.timestep_size)
   , patterns_(std::move(patterns))
+  , run_(choose_kind(options.kind, find_files(patterns_).front()))
 {
-  if (!(timestep_size > 0) || !std::isfinite(timestep_size))
+  if (!(timestep_size_ > 0) || !std::isfinite(timestep_size_))
   {
-    throw BadArgument("expected a timestep_size greater than 0, got " + to_text(timestep_size));
+    throw ArgumentError("expected a timestep_size greater than 0, got " + to_text(timestep_size_));
   }
-  kind_ = &find_kind(options.kind, find_files(patterns_).front());
-  options_ = index_options(options, *kind_);
+  run_.set_options(run_options(options));
   Caller caller(options.progress, options.notice, options.user);
   this->refresh(caller);
 }
@@ -151,7 +155,7 @@ void granular_run::refresh(Caller& caller)
 {
   if (std::ranges::find(runs_at_work, this) != runs_at_work.end())
   {
-    throw BadArgument(
+    throw ArgumentError(
       "expected a refresh between the other calls of a run, got one from a function "
       "for progress or notices of the same run");
   }
@@ -159,93 +163,104 @@ void granular_run::refresh(Caller& caller)
   const std::lock_guard refreshing(
     refresh_mutex_); // others, and functions for progress, see the run as it was meanwhile
   Notices notices;
-  RunIndex updated = index; // after an error the run is as it was
-  updated.update(find_files(patterns_), options_, notices, caller);
-  std::vector<double> new_times = updated.times(timestep_size, notices);
+  Run updated = run_; // after an error the run is as it was
+  SerialCommunicator alone;
+  updated.refresh(find_files(patterns_), run_.options(), alone, notices, caller);
+  std::vector<double> new_times = updated.index().times(timestep_size_, notices);
   std::vector<LeftOut> new_left_out;
-  for (const FileIndex& file : updated.files())
+  for (const FileIndex& file : updated.index().files())
   {
     new_left_out.push_back({ file.defect ? to_string(*file.defect) : "", count_repeated(file) });
   }
   {
     const std::unique_lock lock(mutex);
-    shared_index = std::make_shared<const RunIndex>(updated);
-    index = std::move(updated);
+    shared_index = std::make_shared<const RunIndex>(updated.index());
+    run_ = std::move(updated);
     times = std::move(new_times);
     left_out = std::move(new_left_out);
-    const std::lock_guard guard(offers_mutex_);
-    offers_.clear();
   }
   caller.tell(notices);
 }
 
 std::size_t granular_run::number_of(std::int64_t frame) const
 {
-  const auto count = static_cast<std::int64_t>(index.size());
+  const auto count = static_cast<std::int64_t>(this->index().size());
   const std::int64_t number = frame < 0 ? frame + count : frame;
   if (number < 0 || number >= count)
   {
-    throw BadArgument("expected a frame from " + std::to_string(-count) + " to " +
+    throw ArgumentError("expected a frame from " + std::to_string(-count) + " to " +
       std::to_string(count - 1) + ", got " + std::to_string(frame));
   }
   return static_cast<std::size_t>(number);
 }
 
+const Offer& granular_run::offer(std::size_t frame)
+{
+  const std::lock_guard guard(offers_mutex_);
+  Progress progress;
+  return run_.offer(frame, progress);
+}
+
 const std::vector<OfferedArray>& granular_run::arrays(std::size_t frame, int table)
 {
-  if (table < 0 || table > (kind_->has_bonds ? 1 : 0))
+  if (table < 0 || table > (this->kind().has_bonds ? 1 : 0))
   {
-    throw BadArgument(std::string("expected table 0") + (kind_->has_bonds ? " or 1" : "") +
+    throw ArgumentError(std::string("expected table 0") + (this->kind().has_bonds ? " or 1" : "") +
       ", got " + std::to_string(table));
   }
-  const FramePiece piece = index.first_piece(frame);
-  // frames of one kind have the same columns; other files are looked into one by one
-  const bool is_shared = kind_->kind == GRANULAR_KIND_DUMP || kind_->kind == GRANULAR_KIND_LOCAL;
-  const std::string key =
-    is_shared && piece.entry.kind ? piece.entry.kind->schema.text() : "#" + std::to_string(frame);
-  const std::lock_guard guard(offers_mutex_);
-  const auto known = offers_.find({ key, table });
-  if (known != offers_.end())
+  const Offer& offer = this->offer(frame);
+  if (!offer.error.empty())
   {
-    return known->second;
+    throw FormatError(offer.error, offer.where);
   }
-  return offers_[{ key, table }] = kind_->arrays(*this, frame, table);
+  return offer.tables[static_cast<std::size_t>(table)];
 }
 
 std::unique_ptr<granular_frame> granular_run::read(
   std::size_t frame, const Wanted& wanted, Caller& caller)
 {
   const AtWork at_work(*this);
-  const std::vector<OfferedArray>& there = this->arrays(frame, wanted.request.table);
+  const std::vector<OfferedArray>& there = this->arrays(frame, wanted.table);
   for (const std::string& name : wanted.names)
   {
     if (name != points_name && name != ends_name && name != "length" &&
       std::ranges::find(there, name, &OfferedArray::name) == there.end())
     {
-      throw BadArgument("expected an array of " + join_words(there, ", ", &OfferedArray::name) +
+      throw ArgumentError("expected an array of " + join_words(there, ", ", &OfferedArray::name) +
           ", got '" + name + "'",
-        where_of(index.first_piece(frame)));
+        where_of(this->index().first_piece(frame)));
     }
   }
-  const granular_request& given = wanted.request;
-  if (std::ranges::any_of(given.region, [](double bound) { return std::isnan(bound); }))
+  const Request& asked = wanted.request;
+  if (std::ranges::any_of(asked.region, [](double bound) { return std::isnan(bound); }))
   {
-    throw BadArgument("expected bounds of a region that are numbers, got NaN");
+    throw ArgumentError("expected bounds of a region that are numbers, got NaN");
   }
-  const auto is_bounded = [&](int axis)
-  { return given.region[2 * axis] <= given.region[2 * axis + 1]; };
-  if (!kind_->has_parts &&
-    (given.stride != 1 || given.coordinates != GRANULAR_ABSOLUTE || given.sort_by_id != 0 ||
+  const auto is_bounded = [&](std::size_t axis)
+  { return asked.region[2 * axis] <= asked.region[2 * axis + 1]; };
+  if (!this->kind().has_parts &&
+    (asked.stride != 1 || asked.coordinates != Coordinates::Absolute || asked.sort_by_id ||
       is_bounded(0) || is_bounded(1) || is_bounded(2)))
   {
-    throw BadArgument(
+    throw ArgumentError(
       "expected a dump or a data file for stride, region, coordinates and sort_by_id, got "
       "another kind of file",
-      where_of(index.first_piece(frame)));
+      where_of(this->index().first_piece(frame)));
   }
-  auto made = std::make_unique<granular_frame>();
+  Request request = asked;
+  request.pool = pool;
+  pool->next_frame();
+  SerialCommunicator alone;
   Notices notices;
-  kind_->read(*this, frame, wanted, notices, caller, *made);
+  RunFrame read = run_.read(frame, request, this->offer(frame), alone, notices, caller);
+  auto made = std::make_unique<granular_frame>();
+  made->kind = request.bonds ? RowKind::Lines : this->kind().rows;
+  if (made->kind != RowKind::Subdomains) // which are where the file has them
+  {
+    made->origin = request.point_origin;
+  }
+  take_table(*made, std::move(request.bonds ? read.bonds : read.rows),
+    request.bonds ? local_known_columns() : this->kind().columns());
   made->time = times[frame];
   made->index = shared_index;
   caller.tell(notices);

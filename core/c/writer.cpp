@@ -40,7 +40,7 @@ std::optional<Value> choose(
     }
     list += std::string(", ") + name;
   }
-  throw BadArgument(std::string("expected a ") + what + " of " + list + ", got '" + word + "'");
+  throw ArgumentError(std::string("expected a ") + what + " of " + list + ", got '" + word + "'");
 }
 
 /// As granular_format has it.
@@ -48,7 +48,7 @@ WriteOptions options_of(const granular_format& format, const InputFiles& inputs)
 {
   if (format.durable < 0 || format.durable > static_cast<int>(Durability::Automatic))
   {
-    throw BadArgument(
+    throw ArgumentError(
       "expected durable of 0, 1 or 2 (automatic), got " + std::to_string(format.durable));
   }
   return { .threads = format.threads > 0 ? format.threads : available_cores(),
@@ -64,7 +64,7 @@ std::vector<double> doubles_of(const FrameView& frame, std::string_view name, in
     name == points_name ? (frame.points ? &*frame.points : nullptr) : frame.find(name);
   if (array == nullptr || array->size() != components || !is_number(array->type))
   {
-    throw BadArgument("expected an array '" + std::string(name) + "' of numbers with " +
+    throw ArgumentError("expected an array '" + std::string(name) + "' of numbers with " +
       std::to_string(components) + (components == 1 ? " component" : " components") + ", got " +
       (array == nullptr ? std::string("none") : std::to_string(array->size())));
   }
@@ -118,7 +118,7 @@ Decomposition decomposition_of(const FrameView& frame)
     constexpr double most = 9007199254740992; // 2^53
     if (!(particles[i] >= 0 && particles[i] <= most && ranks[i] >= 0 && ranks[i] <= INT32_MAX))
     {
-      throw BadArgument("subdomain " + std::to_string(i) +
+      throw ArgumentError("subdomain " + std::to_string(i) +
         ": expected a number of particles and a rank of at least 0, got " + to_text(particles[i]) +
         " and " + to_text(ranks[i]));
     }
@@ -245,7 +245,7 @@ const Style& find_style(const std::string& path, const std::string& name)
   const auto found = std::ranges::find(styles, name, &Style::name);
   if (found == std::end(styles))
   {
-    throw BadArgument(
+    throw ArgumentError(
       "expected a style of custom, atom, local, euler, decomposition, got '" + name + "'");
   }
   return *found;
@@ -272,7 +272,7 @@ void granular_writer::expect_frames() const
 {
   if (failed || frames == 0)
   {
-    throw granular_c::BadArgument(failed
+    throw granular::ArgumentError(failed
         ? "expected a writer whose frames are whole, got one that failed in a frame before"
         : "expected at least one frame, got none",
       { path });

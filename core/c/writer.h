@@ -16,7 +16,7 @@
 /// A file that is being written. It appears when finish() is done; without it the old file is untouched.
 struct granular_writer
 {
-  /// Throws BadArgument unless at least one frame was written, and all of them whole.
+  /// Throws ArgumentError unless at least one frame was written, and all of them whole.
   void expect_frames() const;
 
   /// Adds the files that a frame comes from to those that are read meanwhile.
@@ -39,7 +39,7 @@ struct granular_writer
 
 namespace granular_c
 {
-/// Begins a file. Throws BadArgument for a style or dialect that there is not, and the errors of DumpWriter.
+/// Begins a file. Throws ArgumentError for a style or dialect that there is not, and the errors of DumpWriter.
 std::unique_ptr<granular_writer> create_writer(
   const std::string& path, const granular_format& format);
 }

@@ -81,6 +81,12 @@ class UnsupportedError : public Error
   using Error::Error;
 };
 
+/// An argument that cannot be used, such as a choice that there is not.
+class ArgumentError : public Error
+{
+  using Error::Error;
+};
+
 /// Returns the exception that a catch-all has caught, to be thrown again later. The end of a thread, as by pthread_exit in a function
 /// for progress, is no exception, and goes on at once.
 inline std::exception_ptr caught_exception()

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef granular_runs_kind_h
+#define granular_runs_kind_h
+
+#include "granular/columns/column.h"
+#include "granular/common/error.h"
+#include "granular/common/progress.h"
+#include "granular/dump/read/dump_request.h"
+#include "granular/frames/file_format.h"
+#include "granular/frames/run_index.h"
+#include "granular/memory/block.h"
+#include "granular/parallel/communicator.h"
+#include "granular/runs/request.h"
+#include "granular/runs/table.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+/// A frame of a run, and how its files are understood.
+struct RunPlace
+{
+  const RunIndex& index;
+  std::size_t frame;
+  const RunOptions& options;
+};
+
+/// A kind of files: how they are told from others, and how their frames are read.
+struct Kind
+{
+  std::string_view name;
+  int number;   ///< in granular_kind of C
+  RowKind rows; ///< of table 0
+  bool (*is_file)(const std::string& path) noexcept;
+  const FileFormat& (*format)() noexcept;
+  std::span<const KnownColumn> (*columns)() noexcept; ///< units and meanings in table 0
+  bool tells_by_columns = false; ///< frames with the same columns have the same arrays
+  bool has_bonds = false;        ///< in table 1
+  bool has_pieces = false;       ///< several files may hold one frame
+  bool has_parts = false;        ///< stride, region, coordinates and order can be chosen
+
+  /// Returns the frames whose arrays are together those of all frames, or of nearly all.
+  std::vector<std::size_t> (*looked_at)(const RunIndex& index);
+
+  /// Returns what the files tell of a frame. Throws Error; Cancelled.
+  Offer (*offer)(const RunPlace& place, Progress& progress);
+
+  /// Reads a frame. `offer` is needed for local data alone. Collective.
+  RunFrame (*read)(const RunPlace& place, const Request& request, const Offer& offer,
+    Communicator& ranks, Notices& notices, Progress& progress);
+};
+
+/// The kinds, each in a file of its own.
+extern const Kind dump_kind;
+extern const Kind local_kind;
+extern const Kind restart_kind;
+extern const Kind data_file_kind;
+extern const Kind euler_kind;
+extern const Kind decomposition_kind;
+
+/// Returns all kinds, in the order in which they are asked whether a file is theirs.
+std::span<const Kind* const> kinds() noexcept;
+
+/// Returns the kind of a name, such as "local". Throws ArgumentError that lists the names.
+const Kind& find_kind(std::string_view name);
+
+/// Returns the kind of a file by its contents; that of dumps, whose error says what was expected, if there is none.
+const Kind& kind_of_file(const std::string& path) noexcept;
+
+// ---- what several kinds need ----------------------------------------------------------------------
+/// Returns frames for Kind::looked_at: one for each list of columns, or those between which bonds may have come.
+std::vector<std::size_t> one_for_columns(const RunIndex& index);
+std::vector<std::size_t> first_and_last(const RunIndex& index);
+
+/// Returns the row of a table of columns that knows an array by its name or by that of a column in it, or null.
+const KnownColumn* find_known(std::string_view array, std::span<const KnownColumn> table) noexcept;
+
+/// Returns the arrays that columns make; the table knows their units.
+std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const KnownColumn> table);
+
+/// Returns true if a request wants an array.
+bool is_wanted(const Request::Choice& choice, std::string_view name, bool is_usual);
+
+DumpRequest dump_request(const Request& request);
+LineRequest line_request(const Request& request);
+
+/// Returns values in memory that can be given away.
+template <class Value>
+Block block_of(const std::vector<Value>& values)
+{
+  Block block(values.size() * sizeof(Value));
+  std::ranges::copy(values, static_cast<Value*>(block.data()));
+  return block;
+}
+
+/// Adds an array that no columns of a file make.
+void add_array(
+  DumpFrame& frame, std::string_view name, ValueType type, int components, Block block);
+}
+#endif

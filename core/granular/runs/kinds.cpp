@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/runs/kind.h"
+
+#include "granular/common/words.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace granular
+{
+std::span<const Kind* const> kinds() noexcept
+{
+  static constexpr const Kind* all[] = { &dump_kind, &local_kind, &restart_kind, &data_file_kind,
+    &decomposition_kind, &euler_kind };
+  return all;
+}
+
+const Kind& find_kind(std::string_view name)
+{
+  const auto found = std::ranges::find(kinds(), name, &Kind::name);
+  if (found == kinds().end())
+  {
+    throw ArgumentError("expected a kind of " + join_words(kinds(), ", ", &Kind::name) + ", got '" +
+      std::string(name) + "'");
+  }
+  return **found;
+}
+
+const Kind& kind_of_file(const std::string& path) noexcept
+{
+  const auto found =
+    std::ranges::find_if(kinds(), [&](const Kind* kind) { return kind->is_file(path); });
+  return found == kinds().end() ? dump_kind : **found;
+}
+
+std::vector<std::size_t> one_for_columns(const RunIndex& index)
+{
+  std::vector<std::size_t> frames;
+  std::set<const FrameKind*> seen;
+  for (std::size_t frame = 0; frame < index.size(); ++frame)
+  {
+    if (seen.insert(index.first_piece(frame).entry.kind.get()).second)
+    {
+      frames.push_back(frame);
+    }
+  }
+  return frames;
+}
+
+std::vector<std::size_t> first_and_last(const RunIndex& index)
+{
+  return index.size() == 1 ? std::vector<std::size_t>{ 0 }
+                           : std::vector<std::size_t>{ 0, index.size() - 1 };
+}
+
+const KnownColumn* find_known(std::string_view array, std::span<const KnownColumn> table) noexcept
+{
+  const auto part = std::ranges::find(table, array, &KnownColumn::array);
+  return part == table.end() ? find_known_column(array, table) : &*part;
+}
+
+std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const KnownColumn> table)
+{
+  std::vector<OfferedArray> arrays;
+  for (const ArrayInfo& array : schema.arrays())
+  {
+    arrays.push_back({ array.name, array.type, array.components(), !array.position_form,
+      find_known(array.name, table) });
+  }
+  return arrays;
+}
+
+bool is_wanted(const Request::Choice& choice, std::string_view name, bool is_usual)
+{
+  return choice ? choice(name, is_usual) : is_usual;
+}
+
+DumpRequest dump_request(const Request& request)
+{
+  DumpRequest made;
+  made.coordinates = request.coordinates;
+  made.points = request.points;
+  made.single_precision = request.single_precision;
+  made.point_origin = request.point_origin;
+  made.sort_by_id = request.sort_by_id;
+  made.stride = request.stride;
+  made.region = request.region;
+  made.wanted = [choice = request.wanted](const ArrayInfo& array)
+  { return is_wanted(choice, array.name, !array.position_form); };
+  made.ranges = request.ranges;
+  made.piece = request.piece;
+  made.pieces = request.pieces;
+  made.threads = request.threads;
+  made.pool = request.pool;
+  return made;
+}
+
+LineRequest line_request(const Request& request)
+{
+  return { request.periodic_lines, request.point_origin, request.threads, request.pool };
+}
+
+void add_array(DumpFrame& frame, std::string_view name, ValueType type, int components, Block block)
+{
+  const std::vector<int> no_columns(static_cast<std::size_t>(components), -1);
+  ArrayInfo info{ .name = std::string(name), .type = type, .columns = no_columns };
+  frame.arrays.push_back({ std::move(info), std::move(block), {}, {} });
+}
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/runs/run.h"
+
+#include "granular/common/archive.h"
+#include "granular/common/error.h"
+#include "granular/common/pass.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+IndexOptions index_options(const Kind& kind, const RunOptions& options)
+{
+  return { .format = &kind.format(),
+    .column_names = options.column_names,
+    .repeated_steps = kind.has_pieces ? options.repeated_steps
+                                      : RepeatedSteps::Last, // no file is a piece of another
+    .threads = options.threads };
+}
+}
+
+void Run::refresh(const std::vector<std::string>& files, const RunOptions& options,
+  Communicator& ranks, Notices& notices, Progress& progress)
+{
+  options_ = options;
+  offers_.clear();
+  looked_at_.clear();
+  update_run_index(index_, ranks, files, index_options(*kind_, options), notices, progress);
+}
+
+void Run::set_options(const RunOptions& options)
+{
+  if (options_ != options)
+  {
+    options_ = options;
+    offers_.clear();
+    looked_at_.clear();
+  }
+}
+
+/// Frames with the same columns tell the same; files without a kind of frames are asked one by one.
+std::string Run::key_of(std::size_t frame) const
+{
+  const FramePiece piece = index_.first_piece(frame);
+  return piece.entry.kind && kind_->tells_by_columns ? piece.entry.kind->schema.text()
+                                                     : "#" + std::to_string(frame);
+}
+
+const Offer& Run::offer(std::size_t frame, Progress& progress)
+{
+  std::string key = this->key_of(frame);
+  const auto known = offers_.find(key);
+  return known != offers_.end()
+    ? known->second
+    : offers_.emplace(std::move(key), kind_->offer({ index_, frame, options_ }, progress))
+        .first->second;
+}
+
+const Offer& Run::known_offer(std::size_t frame) const
+{
+  static const Offer nothing;
+  const auto known = offers_.find(this->key_of(frame));
+  return known == offers_.end() ? nothing : known->second;
+}
+
+void Run::look(Communicator& ranks, Progress& progress)
+{
+  do_together(ranks,
+    [&]
+    {
+      ArchiveWriter packer;
+      if (ranks.rank() == 0)
+      {
+        std::vector<std::string> keys;
+        for (const std::size_t frame : kind_->looked_at(index_))
+        {
+          this->offer(frame, progress);
+          keys.push_back(this->key_of(frame));
+        }
+        pass(packer, keys);
+        for (const std::string& key : keys)
+        {
+          pass(packer, std::as_const(offers_.at(key)));
+        }
+      }
+      ranks.broadcast(packer.bytes, 0);
+      ArchiveReader unpacker{ packer.bytes };
+      pass(unpacker, looked_at_);
+      for (const std::string& key : looked_at_)
+      {
+        pass(unpacker, offers_[key]);
+      }
+    });
+}
+
+std::vector<OfferedArray> Run::arrays(std::size_t table) const
+{
+  std::vector<OfferedArray> all;
+  for (const std::string& key : looked_at_)
+  {
+    std::ranges::copy(offers_.at(key).tables[table], std::back_inserter(all));
+  }
+  return all;
+}
+
+RunFrame Run::read(std::size_t frame, const Request& request, const Offer& offer,
+  Communicator& ranks, Notices& notices, Progress& progress) const
+{
+  if (!offer.error.empty())
+  {
+    throw FormatError(offer.error, offer.where);
+  }
+  notices.insert(notices.end(), offer.notices.begin(), offer.notices.end());
+  return kind_->read({ index_, frame, options_ }, request, offer, ranks, notices, progress);
+}
+}
