@@ -20,7 +20,7 @@ vtkStandardNewMacro(vtkGranularDecompositionReader);
 struct vtkGranularDecompositionReader::Internals : vtkGranularSeriesReader::Internals
 {
   explicit Internals(vtkGranularDecompositionReader* reader)
-    : vtkGranularSeriesReader::Internals(reader, granular::decomposition_format())
+    : vtkGranularSeriesReader::Internals(reader, granular::decomposition_kind)
     , Reader(reader)
   {
   }

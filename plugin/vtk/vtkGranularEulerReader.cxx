@@ -157,14 +157,13 @@ void FillBlocks(vtkPartitionedDataSet* output, const granular::EulerFrame& frame
 struct vtkGranularEulerReader::Internals : vtkGranularSeriesReader::Internals
 {
   explicit Internals(vtkGranularEulerReader* reader)
-    : vtkGranularSeriesReader::Internals(reader, granular::euler_format())
+    : vtkGranularSeriesReader::Internals(reader, granular::euler_kind)
     , Reader(reader)
   {
   }
 
   std::string GetLookKey() const override { return std::to_string(this->Reader->OutputType); }
-  Found Look(granular::ArchiveWriter& archive) override;
-  void Take(granular::ArchiveReader& archive) override { pass(archive, this->Known); }
+  void LookFurther() override;
   void Describe(vtkInformationVector* outputs) override;
   void Fill(Shown& shown, const granular::EulerFrame& frame,
     const std::vector<granular::RegularGrid>& grids) const;
@@ -175,39 +174,32 @@ struct vtkGranularEulerReader::Internals : vtkGranularSeriesReader::Internals
 };
 
 //------------------------------------------------------------------------------
-vtkGranularSeriesReader::Internals::Found vtkGranularEulerReader::Internals::Look(
-  granular::ArchiveWriter& archive)
+void vtkGranularEulerReader::Internals::LookFurther()
 {
-  std::size_t frame = 0;
-  while (frame + 1 < this->Index.size() && this->Index.first_piece(frame).entry.rows == 0)
+  granular::ArchiveWriter packer;
+  if (this->GetRanks().rank() == 0)
   {
-    ++frame;
+    const granular::RunIndex& index = this->Run.index();
+    const std::vector<granular::FramePiece> pieces =
+      index.pieces(this->Run.kind().looked_at(index).front());
+    Form form;
+    form.Step = pieces.front().entry.timestep;
+    if (this->Reader->OutputType == IMAGE_DATA)
+    {
+      AlgorithmProgress progress(this->Reader);
+      granular::Notices notices; // are given again where cells are shown
+      std::vector<granular::RegularGrid> grids;
+      ReadCells(
+        pieces, [](std::string_view) { return false; }, &grids, notices, progress);
+      form.IsImage = grids.size() <= 1;
+      form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
+      ExtentOf(form.Grid); // can be had
+    }
+    pass(packer, std::as_const(form));
   }
-  const std::vector<granular::FramePiece> pieces = this->Index.pieces(frame);
-  const auto filled = std::ranges::find_if(
-    pieces, [](const granular::FramePiece& one) { return one.entry.rows > 0; });
-  const granular::FramePiece& piece = filled == pieces.end() ? pieces.front() : *filled;
-  AlgorithmProgress progress(this->Reader);
-  Found found;
-  for (std::string& name :
-    granular::euler_array_names(*granular::open_indexed(piece.file), piece.entry, progress))
-  {
-    found.Points.push_back({ std::move(name) });
-  }
-  Form form;
-  form.Step = piece.entry.timestep;
-  if (this->Reader->OutputType == IMAGE_DATA)
-  {
-    granular::Notices notices; // are given again where cells are shown
-    std::vector<granular::RegularGrid> grids;
-    ReadCells(
-      pieces, [](std::string_view) { return false; }, &grids, notices, progress);
-    form.IsImage = grids.size() <= 1;
-    form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
-    ExtentOf(form.Grid); // can be had
-  }
-  pass(archive, form);
-  return found;
+  this->GetRanks().broadcast(packer.bytes, 0);
+  granular::ArchiveReader unpacker{ packer.bytes };
+  pass(unpacker, this->Known);
 }
 
 //------------------------------------------------------------------------------

@@ -88,7 +88,8 @@ void vtkGranularSeriesReader::SetController(vtkMultiProcessController* controlle
 {
   if (controller != this->GetController())
   {
-    this->Series->Index = {}; // the new ranks have none, or others
+    this->Series->Run =
+      granular::Run(this->Series->Run.kind()); // the new ranks have none, or others
     this->Series->Valid = false;
     this->Superclass::SetController(controller);
   }
@@ -121,8 +122,8 @@ int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,
     bool changed = true;
     try
     {
-      changed =
-        !this->Series->Valid || granular::is_changed(this->Series->Index, this->Series->GetRanks());
+      changed = !this->Series->Valid ||
+        granular::is_changed(this->Series->Run.index(), this->Series->GetRanks());
     }
     catch (const std::exception&)
     {
@@ -160,7 +161,8 @@ int vtkGranularSeriesReader::RequestInformation(
         });
       this->Series->Update();
       granular::Notices notices;
-      const std::vector<double> times = this->Series->Index.times(this->TimestepSize, notices);
+      const std::vector<double> times =
+        this->Series->Run.index().times(this->TimestepSize, notices);
       if (this->Series->GetRanks().rank() == 0)
       {
         this->Series->Tell(notices, true);
@@ -188,7 +190,7 @@ void vtkGranularSeriesReader::Execute(vtkInformation* request,
   {
     throw granular::Cancelled();
   }
-  this->Series->Run(request, outputVector);
+  this->Series->ShowRequested(request, outputVector);
 }
 
 //------------------------------------------------------------------------------

@@ -70,7 +70,7 @@ void vtkGranularWriter::Internals::FindInputs(vtkGranularWriter* self)
     vtkAlgorithm* algorithm = upstream[next];
     if (auto* reader = vtkGranularSeriesReader::SafeDownCast(algorithm))
     {
-      this->Inputs.add(reader->Series->Index);
+      this->Inputs.add(reader->Series->Run.index());
     }
     for (int port = 0; port < algorithm->GetNumberOfInputPorts(); ++port)
     {

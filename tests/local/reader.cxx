@@ -550,8 +550,9 @@ TEST(LocalReaderVtk, ColumnsThatChange)
         { "1 1 1 2 1 1 7 8 1 0 0 5 0 0 0 1", "2 1 1 3 1 1 8 9 2 0 0 5 0 0 0 1" }, Box, "BONDS", 3));
   LinesReader reader({ path });
   reader->UpdateTimeStep(1);
-  EXPECT_EQ(reader.Selection(),
-    "(position1) (position2) id1 id2 btype force torque equilibrium_length c_f");
+  EXPECT_EQ(
+    reader.Selection(), "id1 id2 (position1) (position2) c_f btype force torque equilibrium_length")
+    << "frame by frame";
   EXPECT_EQ(reader.Names(true), "id1 id2");
   reader->UpdateTimeStep(2);
   EXPECT_EQ(reader.Names(), "id1 id2 c_f length");

@@ -8,29 +8,21 @@
 
 namespace vtkGranularPrivate
 {
-void AddNames(const granular::ColumnSchema& schema, ArrayNames& names)
-{
-  for (const granular::ArrayInfo& array : schema.arrays())
-  {
-    names.push_back({ array.name, !array.position_form });
-  }
-}
-
 ArrayChoice::ArrayChoice() = default;
 ArrayChoice::~ArrayChoice() = default;
 
 // VTK looks at all names for each that is added by itself. The list is made anew: those that differ from most are known to it before,
 // and keep their state, the others take that of most. Nobody is told, as AddArray tells nobody.
-void ArrayChoice::Offer(const ArrayNames& arrays)
+void ArrayChoice::Offer(const std::vector<granular::OfferedArray>& arrays)
 {
   const bool chosen = !this->AreAllOn();
   decltype(this->Names)
     offered; // known when all is done: what fails for want of memory is done again
-  for (const auto& [name, on] : arrays)
+  for (const granular::OfferedArray& array : arrays)
   {
-    offered.emplace(name, on);
+    offered.emplace(array.name, array.is_usual);
   }
-  std::map<std::string, bool> states = this->GetStates();
+  std::map<std::string, bool, std::less<>> states = this->GetStates();
   std::vector<std::string> kept;
   for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
   {
@@ -46,10 +38,11 @@ void ArrayChoice::Offer(const ArrayNames& arrays)
       this->Gone[name] = states[name];
     }
   }
-  for (const auto& [name, on] : arrays)
+  for (const granular::OfferedArray& array : arrays)
   {
+    const std::string& name = array.name;
     const auto before = this->Gone.find(name);
-    const bool isOn = on && !(this->Follow && chosen);
+    const bool isOn = array.is_usual && !(this->Follow && chosen);
     if (states.emplace(name, before == this->Gone.end() ? isOn : before->second).second)
     {
       kept.push_back(name);
@@ -71,9 +64,9 @@ void ArrayChoice::Offer(const ArrayNames& arrays)
   this->Names.swap(offered);
 }
 
-std::map<std::string, bool> ArrayChoice::GetStates() const
+std::map<std::string, bool, std::less<>> ArrayChoice::GetStates() const
 {
-  std::map<std::string, bool> states;
+  std::map<std::string, bool, std::less<>> states;
   for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
   {
     states.emplace(this->Selection->GetArrayName(i), this->Selection->GetArraySetting(i) != 0);
@@ -101,9 +94,13 @@ std::set<std::string, std::less<>> ArrayChoice::GetWanted() const
   return names;
 }
 
-std::function<bool(std::string_view)> ArrayChoice::MakeFilter() const
+granular::Request::Choice ArrayChoice::MakeFilter() const
 {
-  return [names = this->GetWanted()](std::string_view name) { return names.contains(name); };
+  return [states = this->GetStates(), all = this->AreAllOn()](std::string_view name, bool isUsual)
+  {
+    const auto state = states.find(name);
+    return state == states.end() ? all && isUsual : state->second;
+  };
 }
 
 void ArrayChoice::CheckNames(

@@ -4,6 +4,8 @@
 
 #include "granular/columns/column.h"
 #include "granular/common/error.h"
+#include "granular/runs/request.h"
+#include "granular/runs/table.h"
 
 #include "vtkNew.h"
 
@@ -19,32 +21,6 @@ class vtkDataArraySelection;
 namespace vtkGranularPrivate
 {
 /**
- * An array that files have, and whether it is on if nobody chooses.
- */
-struct ArrayName
-{
-  std::string Name;
-  bool On = true;
-};
-
-template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<ArrayName>& array)
-{
-  archive.text(array.Name);
-  archive.number(array.On);
-}
-
-/**
- * May have a name several times, of which the first counts.
- */
-using ArrayNames = std::vector<ArrayName>;
-
-/**
- * Adds the arrays of a schema: on, except coordinates.
- */
-void AddNames(const granular::ColumnSchema& schema, ArrayNames& names);
-
-/**
  * The arrays in the files, and the user's selection of them.
  */
 class ArrayChoice
@@ -56,10 +32,10 @@ public:
   vtkDataArraySelection* GetSelection() const { return this->Selection; }
 
   /**
-   * Replaces the list of arrays. The selection stays, also for arrays that return. Time is proportional to the number of
+   * Replaces the list of arrays, of which the first of a name counts. The selection stays, also for arrays that return. Time is proportional to the number of
    * arrays if few of them are off.
    */
-  void Offer(const ArrayNames& arrays);
+  void Offer(const std::vector<granular::OfferedArray>& arrays);
 
   /**
    * Returns true if all listed arrays are on, except those that are off by default.
@@ -72,9 +48,10 @@ public:
   std::set<std::string, std::less<>> GetWanted() const;
 
   /**
-   * Returns a function that tells whether an array is selected now: a frame may be decoded while the selection changes.
+   * Returns a function that tells whether an array is selected now: a frame may be decoded while the selection changes. An array that
+   * is not listed, such as bonds that come and go between the frames that were looked at, is on where all others are.
    */
-  std::function<bool(std::string_view)> MakeFilter() const;
+  granular::Request::Choice MakeFilter() const;
 
   /**
    * Warns of selected names that no frame has: they are probably misspelt, and the column would be missing without a
@@ -86,7 +63,7 @@ public:
   bool Follow = false; ///< new arrays are off if the user has deselected others
 
 private:
-  std::map<std::string, bool> GetStates() const;
+  std::map<std::string, bool, std::less<>> GetStates() const;
 
   vtkNew<vtkDataArraySelection> Selection;
   std::map<std::string, bool> Names; ///< of all frames, and whether they are on if nobody chooses

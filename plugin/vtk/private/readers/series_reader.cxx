@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/readers/series_reader.h"
 
+#include "vtkGranularParticleReader.h"
+
 #include "private/arrays/pool.h"
 #include "private/local/lines.h"
 
-#include "granular/common/pass.h"
+#include "granular/common/archive.h"
+#include "granular/runs/kind.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -16,6 +19,7 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -23,20 +27,14 @@
 using namespace vtkGranularPrivate;
 
 //------------------------------------------------------------------------------
-vtkGranularSeriesReader::Internals::Found vtkGranularSeriesReader::Internals::Look(
-  granular::ArchiveWriter&)
+void vtkGranularSeriesReader::Internals::SetParticles(
+  granular::Request& request, vtkGranularParticleReader* reader)
 {
-  return {};
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::Take(granular::ArchiveReader&)
-{
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::Describe(vtkInformationVector*)
-{
+  request.coordinates = static_cast<granular::Coordinates>(reader->GetCoordinates());
+  std::copy_n(reader->GetPointOrigin(), 3, request.point_origin.begin());
+  request.sort_by_id = reader->GetSortById();
+  request.stride = reader->GetStride();
+  std::copy_n(reader->GetRegionOfInterest(), 6, request.region.begin());
 }
 
 //------------------------------------------------------------------------------
@@ -52,11 +50,19 @@ void vtkGranularSeriesReader::Internals::Update()
   {
     throw granular::IoError("no file to read: set FileNames first");
   }
-  const auto repeated = static_cast<granular::RepeatedSteps>(this->Self->RepeatedSteps);
-  std::vector<std::string> columns = this->GetColumnNames();
-  if (this->Valid && !this->Stale && this->IndexedNames == this->FileNames &&
-    this->Options.repeated_steps == repeated && this->Options.column_names == columns)
+  granular::RunOptions options;
+  options.repeated_steps = static_cast<granular::RepeatedSteps>(this->Self->RepeatedSteps);
+  options.threads = this->GetThreads();
+  this->SetOptions(options);
+  if (options != this->Run.options())
   {
+    this->LookedAt.reset();
+  }
+  if (this->Valid && !this->Stale && this->IndexedNames == this->FileNames &&
+    this->Run.options().repeated_steps == options.repeated_steps &&
+    this->Run.options().column_names == options.column_names)
+  {
+    this->Run.set_options(options);
     return;
   }
   granular::Communicator& ranks = this->GetRanks();
@@ -67,12 +73,9 @@ void vtkGranularSeriesReader::Internals::Update()
     this->Told.clear();
     this->IndexedNames = this->FileNames;
   }
-  this->Options.column_names = std::move(columns);
-  this->Options.repeated_steps = repeated;
-  this->Options.threads = this->GetThreads();
   granular::Notices notices;
   AlgorithmProgress progress(this->Self);
-  granular::update_run_index(this->Index, ranks, this->FileNames, this->Options, notices, progress);
+  this->Run.refresh(this->FileNames, options, ranks, notices, progress);
   granular::do_together(ranks,
     [&]
     {
@@ -93,28 +96,18 @@ void vtkGranularSeriesReader::Internals::LookOnce()
   {
     return;
   }
-  granular::Communicator& ranks = this->GetRanks();
-  granular::do_together(ranks,
+  granular::do_together(this->GetRanks(),
     [&]
     {
-      granular::ArchiveWriter own;
-      granular::ArchiveWriter packer;
-      if (ranks.rank() == 0)
+      AlgorithmProgress progress(this->Self);
+      this->Run.look(this->GetRanks(), progress);
+      const bool isOfLines = this->Run.kind().rows == granular::RowKind::Lines;
+      (isOfLines ? this->Cells : this->Points).Offer(this->Run.arrays(0));
+      if (!isOfLines)
       {
-        const Found found = this->Look(own);
-        granular::pass(packer, found.Points);
-        granular::pass(packer, found.Cells);
-        packer.bytes += own.bytes;
+        this->Cells.Offer(this->Run.arrays(1));
       }
-      ranks.broadcast(packer.bytes, 0);
-      granular::ArchiveReader unpacker{ packer.bytes };
-      for (ArrayChoice* choice : { &this->Points, &this->Cells })
-      {
-        ArrayNames names;
-        granular::pass(unpacker, names);
-        choice->Offer(names);
-      }
-      this->Take(unpacker);
+      this->LookFurther();
     });
   this->LookedAt = std::move(key);
 }
@@ -156,7 +149,8 @@ void vtkGranularSeriesReader::Internals::Tell(const granular::Notices& notices, 
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::Run(vtkInformation* request, vtkInformationVector* outputs)
+void vtkGranularSeriesReader::Internals::ShowRequested(
+  vtkInformation* request, vtkInformationVector* outputs)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   // valid already, but for a pipeline that goes on after RequestInformation failed
@@ -170,12 +164,12 @@ void vtkGranularSeriesReader::Internals::Run(vtkInformation* request, vtkInforma
     request->Has(Pipeline::FROM_OUTPUT_PORT()) ? request->Get(Pipeline::FROM_OUTPUT_PORT()) : 0;
   shown.Port = outputs->GetInformationObject(std::max(port, 0));
   shown.Piece = PieceRequest::Of(shown.Port);
-  const std::vector<double> times = this->Index.times(this->Self->TimestepSize);
+  const std::vector<double> times = this->Run.index().times(this->Self->TimestepSize);
   if (shown.Port->Has(Pipeline::UPDATE_TIME_STEP()))
   {
     shown.Number = granular::RunIndex::find(times, shown.Port->Get(Pipeline::UPDATE_TIME_STEP()));
   }
-  shown.Pieces = this->Index.pieces(shown.Number);
+  shown.Pieces = this->Run.index().pieces(shown.Number);
   shown.Where = granular::where_of(shown.Pieces.front());
   if (!std::exchange(this->PoolMade, true))
   {
@@ -202,13 +196,14 @@ void vtkGranularSeriesReader::Internals::Run(vtkInformation* request, vtkInforma
 }
 
 //------------------------------------------------------------------------------
+// Returns all ranks if they request the pieces of one thing, each its own; otherwise this one alone, for example if a filter asks one rank
+// for another time. Ranks that read together must agree on everything. Collective.
 granular::Communicator& vtkGranularSeriesReader::Internals::FindGroup(
-  Shown& shown, const std::function<void(granular::ArchiveWriter&)>& form)
+  Shown& shown, const granular::Request& request)
 {
   granular::ArchiveWriter same;
-  same.number(shown.Piece.Pieces);
   same.number(shown.Number);
-  form(same);
+  granular::pass_form(same, request, this->Run.options());
   for (const ArrayChoice* choice : { &this->Points, &this->Cells })
   {
     for (const std::string& name : choice->GetWanted())
@@ -228,59 +223,91 @@ granular::Communicator& vtkGranularSeriesReader::Internals::FindGroup(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::PassForm(
-  granular::ArchiveWriter& form, const granular::DumpRequest& request)
+granular::Request vtkGranularSeriesReader::Internals::MakeRequest()
 {
-  form.number(request.coordinates);
-  form.number(request.single_precision);
-  form.number(request.point_origin);
-  form.number(request.sort_by_id);
-  form.number(request.stride);
-  form.number(request.region);
-}
-
-//------------------------------------------------------------------------------
-granular::Vector3 vtkGranularSeriesReader::Internals::CheckOrigin(const double origin[3])
-{
-  if (!std::all_of(origin, origin + 3, [](double number) { return std::isfinite(number); }))
+  granular::Request request;
+  request.bonds = this->Run.kind().has_bonds;
+  const bool isOfLines = this->Run.kind().rows == granular::RowKind::Lines;
+  request.wanted = (isOfLines ? this->Cells : this->Points).MakeFilter();
+  request.wanted_bonds = this->Cells.MakeFilter();
+  request.ranges = true; // whoever shows an array asks for it
+  request.threads = this->GetThreads();
+  request.pool = this->Pool;
+  this->SetRequest(request);
+  const auto isFinite = [](double number) { return std::isfinite(number); };
+  if (!std::ranges::all_of(request.point_origin, isFinite))
   {
     throw granular::LimitError("PointOrigin must be finite");
   }
-  return { origin[0], origin[1], origin[2] };
+  return request;
 }
 
 //------------------------------------------------------------------------------
-granular::LineRequest vtkGranularSeriesReader::Internals::MakeLineRequest(
-  int periodicLines, const double pointOrigin[3])
+void vtkGranularSeriesReader::Internals::Show(Shown& shown)
 {
-  return { static_cast<granular::PeriodicLines>(periodicLines), CheckOrigin(pointOrigin),
-    this->GetThreads(), this->Pool };
+  granular::Request request = this->MakeRequest();
+  request.piece = shown.Piece.Piece;
+  request.pieces = shown.Piece.Pieces;
+  granular::Communicator& group = this->FindGroup(shown, request);
+  granular::RunFrame frame = this->Run.read(shown.Number, request,
+    this->Run.known_offer(shown.Number), group, shown.Notices, shown.Progress);
+  if (this->Run.kind().rows == granular::RowKind::Lines)
+  {
+    this->Cells.CheckNames(shown.Where.path, shown.Notices, frame.rows.table.schema);
+    this->FillLines(shown, frame, granular::line_request(request));
+  }
+  else
+  {
+    this->Points.CheckNames(shown.Where.path, shown.Notices, frame.rows.table.schema);
+    this->Cells.CheckNames(shown.Where.path, shown.Notices, frame.bonds.table.schema);
+    this->FillParticles(shown, frame, request);
+  }
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::FillParticles(Shown& shown, granular::DumpFrame& frame,
-  const granular::Vector3& pointOrigin, bool singlePrecision, VertexCells cells)
+void vtkGranularSeriesReader::Internals::FillLines(
+  Shown& shown, granular::RunFrame& frame, const granular::LineRequest& request)
 {
+  auto* lines = vtkPolyData::GetData(shown.Outputs, 0);
+  auto* rows = vtkTable::GetData(shown.Outputs, 1);
+  FillRows(rows, frame.rows);
+  if (frame.rows.has_lines)
+  {
+    vtkGranularPrivate::FillLines(lines, rows, frame.rows, request, shown.Where, shown.Notices);
+  }
+  FillFieldData(lines->GetFieldData(), frame.rows.table, request.point_origin);
+  FillFieldData(rows->GetFieldData(), frame.rows.table, request.point_origin);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Internals::FillParticles(
+  Shown& shown, granular::RunFrame& frame, const granular::Request& request)
+{
+  granular::DumpFrame& rows = frame.rows.table;
   auto* particles = vtkPolyData::GetData(shown.Outputs, 0);
   auto* box =
     vtkUnstructuredGrid::GetData(shown.Outputs, shown.Outputs->GetNumberOfInformationObjects() - 1);
   vtkGranularPrivate::FillParticles(
-    particles, frame, singlePrecision, cells, this->Vertices, this->Pool);
-  if (shown.Piece.Piece == 0 && !FillBox(box, frame.header.box, frame.coordinates, pointOrigin))
+    particles, rows, request.single_precision, this->GetVertices(), this->Vertices, this->Pool);
+  if (shown.Piece.Piece == 0 &&
+    !FillBox(box, rows.header.box, rows.coordinates, request.point_origin))
   {
     shown.Notices.push_back({ shown.Where, "the box is not finite and not shown" });
   }
-  FillFieldData(particles->GetFieldData(), frame, pointOrigin);
-  FillFieldData(box->GetFieldData(), frame, pointOrigin);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularSeriesReader::Internals::FillBonds(
-  Shown& shown, granular::LocalFrame& bonds, const granular::LineRequest& request)
-{
-  auto* lines = vtkPolyData::GetData(shown.Outputs, 1);
-  vtkNew<vtkTable> rows;
-  FillRows(rows, bonds);
-  FillLines(lines, rows, bonds, request, shown.Where, shown.Notices);
-  FillFieldData(lines->GetFieldData(), bonds.table, request.point_origin);
+  FillFieldData(particles->GetFieldData(), rows, request.point_origin);
+  FillFieldData(box->GetFieldData(), rows, request.point_origin);
+  if (this->Run.kind().has_bonds)
+  {
+    auto* lines = vtkPolyData::GetData(shown.Outputs, 1);
+    vtkNew<vtkTable> bonds;
+    FillRows(bonds, frame.bonds);
+    vtkGranularPrivate::FillLines(
+      lines, bonds, frame.bonds, granular::line_request(request), shown.Where, shown.Notices);
+    FillFieldData(lines->GetFieldData(), frame.bonds.table, request.point_origin);
+  }
+  if (!frame.groups.empty())
+  {
+    particles->GetFieldData()->AddArray(MakeStrings("Groups", frame.groups));
+  }
+  FillLeftOut(shown.Outputs, granular::dump_request(request));
 }

@@ -10,27 +10,23 @@
 #include "private/request/piece_request.h"
 #include "private/request/processes.h"
 
-#include "granular/common/archive.h"
 #include "granular/common/progress.h"
-#include "granular/dump/read/dump_request.h"
-#include "granular/frames/run_index.h"
-#include "granular/local/local_reader.h"
 #include "granular/memory/block_pool.h"
+#include "granular/runs/run.h"
 
-#include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+class vtkGranularParticleReader;
 class vtkInformation;
 class vtkInformationVector;
 
 /**
- * The files of a series reader, the index of their frames, the arrays and the notices that the user has received. What is
- * virtual is that of a format.
+ * A run of the core behind a series reader, with the arrays that the user has chosen and the notices that he has received. What is
+ * virtual differs between readers.
  */
 struct vtkGranularSeriesReader::Internals
 {
@@ -50,47 +46,56 @@ struct vtkGranularSeriesReader::Internals
     granular::PartialProgress& Progress; ///< stops also where another rank has failed
   };
 
-  /**
-   * The arrays of frames.
-   */
-  struct Found
-  {
-    vtkGranularPrivate::ArrayNames Points = {};
-    vtkGranularPrivate::ArrayNames Cells = {};
-  };
-
-  Internals(vtkGranularSeriesReader* self, const granular::FileFormat& format)
+  Internals(vtkGranularSeriesReader* self, const granular::Kind& kind)
     : Self(self)
+    , Run(kind)
   {
-    this->Options.format = &format;
   }
   virtual ~Internals() = default;
 
   /**
-   * Returns the names of columns for files that do not name them.
+   * Sets the options of the run that are properties of the reader.
    */
-  virtual std::vector<std::string> GetColumnNames() const { return {}; }
+  virtual void SetOptions(granular::RunOptions&) const {}
 
   /**
-   * Returns the properties on which Look depends: others make the reader look again.
+   * Sets what is asked of a frame by properties of the reader. Throws Error.
+   */
+  virtual void SetRequest(granular::Request&) const {}
+
+  /**
+   * Sets what the properties of readers of particles say.
+   */
+  static void SetParticles(granular::Request& request, vtkGranularParticleReader* reader);
+
+  /**
+   * Returns the properties on which LookFurther depends: others make the reader look again.
    */
   virtual std::string GetLookKey() const { return {}; }
 
   /**
-   * Finds out what the frames have, on rank 0. Take() takes what is in the archive, on all ranks.
+   * Finds out what the outputs will be, beyond their arrays. Collective.
    */
-  virtual Found Look(granular::ArchiveWriter& archive);
-  virtual void Take(granular::ArchiveReader& archive);
+  virtual void LookFurther() {}
 
   /**
    * Describes the outputs to the pipeline, beyond pieces and times.
    */
-  virtual void Describe(vtkInformationVector* outputs);
+  virtual void Describe(vtkInformationVector*) {}
 
   /**
-   * Fills the outputs. Collective, and between two collective calls any rank may throw.
+   * Fills the outputs: lines and their rows for local data, and otherwise particles, bonds if there may be any, and the box.
+   * Collective, and between two collective calls any rank may throw.
    */
-  virtual void Show(Shown& shown) = 0;
+  virtual void Show(Shown& shown);
+
+  /**
+   * Returns the kind of cells that particles get.
+   */
+  virtual vtkGranularPrivate::VertexCells GetVertices() const
+  {
+    return vtkGranularPrivate::VertexCells::OnePerPoint;
+  }
 
   /**
    * Returns the ranks that read together. The first call is collective.
@@ -100,8 +105,8 @@ struct vtkGranularSeriesReader::Internals
   int GetThreads();
 
   /**
-   * Updates the index from the files, if they need to be examined: rank 0 does so for all ranks. Throws on all ranks,
-   * and leaves the index invalid, if there is nothing to show. Collective.
+   * Updates the run from the files, if they need to be examined: rank 0 does so for all ranks. Throws on all ranks,
+   * and leaves the run invalid, if there is nothing to show. Collective.
    */
   void Update();
 
@@ -113,7 +118,7 @@ struct vtkGranularSeriesReader::Internals
   /**
    * Shows the frame of a request for data. Collective.
    */
-  void Run(vtkInformation* request, vtkInformationVector* outputs);
+  void ShowRequested(vtkInformation* request, vtkInformationVector* outputs);
 
   /**
    * Warns once per file, and once per notice, whichever frame it came with first; the number of warnings is limited.
@@ -121,63 +126,15 @@ struct vtkGranularSeriesReader::Internals
   void Tell(const granular::Notices& notices, bool ofFrames);
 
   /**
-   * Returns all ranks if they request the pieces of one thing, each its own; otherwise this one alone, for example if a
-   * filter asks one rank for another time. Ranks that read together must agree on the names of the arrays and on
-   * everything that form(archive) writes. Collective.
+   * Returns what is asked of a frame: whole, by the properties of the reader.
    */
-  granular::Communicator& FindGroup(
-    Shown& shown, const std::function<void(granular::ArchiveWriter&)>& form);
-
-  /**
-   * Returns the request for the particles that the properties of a reader describe.
-   */
-  template <class Reader>
-  granular::DumpRequest MakeDumpRequest(Reader* reader)
-  {
-    granular::DumpRequest request;
-    request.coordinates = static_cast<granular::Coordinates>(reader->GetCoordinates());
-    request.point_origin = CheckOrigin(reader->GetPointOrigin());
-    request.sort_by_id = reader->GetSortById();
-    request.stride = reader->GetStride();
-    std::copy_n(reader->GetRegionOfInterest(), 6, request.region.begin());
-    request.wanted = [wanted = this->Points.MakeFilter()](const granular::ArrayInfo& array)
-    { return wanted(array.name); };
-    request.threads = this->GetThreads();
-    request.pool = this->Pool;
-    return request;
-  }
-
-  /**
-   * Writes what ranks that read particles together must agree on.
-   */
-  static void PassForm(granular::ArchiveWriter& form, const granular::DumpRequest& request);
-
-  granular::LineRequest MakeLineRequest(int periodicLines, const double pointOrigin[3]);
-
-  /**
-   * Fills output 0 with particles, and the last one with their box.
-   */
-  void FillParticles(Shown& shown, granular::DumpFrame& frame, const granular::Vector3& pointOrigin,
-    bool singlePrecision = false,
-    vtkGranularPrivate::VertexCells cells = vtkGranularPrivate::VertexCells::OnePerPoint);
-
-  /**
-   * Fills output 1 with bonds.
-   */
-  static void FillBonds(
-    Shown& shown, granular::LocalFrame& bonds, const granular::LineRequest& request);
-
-  /**
-   * Throws LimitError if a PointOrigin is not finite.
-   */
-  static granular::Vector3 CheckOrigin(const double origin[3]);
+  granular::Request MakeRequest();
 
   vtkGranularSeriesReader* const Self;
   std::vector<std::string> FileNames;
-  granular::RunIndex Index;
-  granular::IndexOptions Options;        ///< that Index was made with
+  granular::Run Run;
   std::vector<std::string> IndexedNames; ///< what it was made from
-  bool Valid = false;                    ///< Index is what the last look at the files gave
+  bool Valid = false;                    ///< Run is what the last look at the files gave
   bool Stale = false;                    ///< the files are to be looked at again
   vtkGranularPrivate::ArrayChoice Points;
   vtkGranularPrivate::ArrayChoice Cells;
@@ -185,6 +142,10 @@ struct vtkGranularSeriesReader::Internals
   std::shared_ptr<granular::BlockPool> Pool; ///< of output memory; null: none, or not made yet
 
 private:
+  granular::Communicator& FindGroup(Shown& shown, const granular::Request& request);
+  void FillLines(Shown& shown, granular::RunFrame& frame, const granular::LineRequest& lines);
+  void FillParticles(Shown& shown, granular::RunFrame& frame, const granular::Request& request);
+
   std::optional<std::string>
     LookedAt; ///< what GetLookKey was when the reader looked; nothing: it has not
   bool PoolMade = false;
