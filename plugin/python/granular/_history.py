@@ -30,16 +30,12 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
     Of a reader only ids, positions and these arrays are read. Raises RuntimeError as granular.update does.
     """
     import numpy
-    from paraview import simple
+    from paraview import servermanager
 
     if not isinstance(ids, str):
         ids = " ".join(str(int(number)) for number in numpy.atleast_1d(numpy.asarray(ids)))
     names = arrays if isinstance(arrays, str) else " ".join(arrays)
-    table = simple.GranularHistory(Input=reader, Ids=ids, Arrays=names, **properties)
-    try:
-        columns = fetch(table)
-    finally:
-        simple.Delete(table)
+    columns = fetch(servermanager.filters.GranularHistory(Input=reader, Ids=ids, Arrays=names, **properties))
     found: dict[str, Any] = {"time": columns.pop("time"), "timestep": columns.pop("timestep"), "id": []}
     parts: dict[str, list[numpy.ndarray]] = {}
     for column, values in columns.items():

@@ -16,6 +16,15 @@ def expect_plugin(there: bool) -> None:
                            "granular.load_plugin()")
 
 
+def has_plugin() -> bool:
+    """Returns true if the server knows the readers of the plugin, however it was loaded: ParaView's own LoadPlugin(path, ns=globals())
+    adds no names to paraview.simple."""
+    from paraview import servermanager
+
+    definitions = servermanager.ProxyManager().SMProxyManager.GetProxyDefinitionManager()
+    return bool(definitions.HasDefinition("sources", "GranularDumpReader"))
+
+
 def _loaded_plugin(servermanager: Any) -> str | None:
     """Returns the path of the plugin that this process has loaded, or None."""
     plugins = servermanager.vtkSMProxyManager.GetProxyManager().GetPluginManager().GetLocalInformation()
@@ -54,7 +63,7 @@ def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
     if path is None:
         path = _plugin_beside_package(servermanager)
         simple.LoadPlugin(path, remote=remote)  # names into paraview.simple
-    if not hasattr(simple, "GranularDumpReader"):
+    if not has_plugin():
         raise RuntimeError(f"ParaView did not load {path}; its messages say why")
     # Not by a second LoadPlugin, which is an error in pvbatch.
     for name in list(vars(simple)) if ns is not None else ():

@@ -9,7 +9,7 @@ from typing import Any, Iterable
 from ._errors import expect_utf8, raised
 from ._files import files
 from ._library import shown
-from ._plugin import expect_plugin
+from ._plugin import expect_plugin, has_plugin
 
 _READERS = ("GranularDumpReader", "GranularLocalReader", "GranularRestartReader", "GranularDataFileReader",
             "GranularDecompositionReader", "GranularEulerReader")
@@ -63,7 +63,7 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     """
     from paraview import servermanager, simple
 
-    expect_plugin(hasattr(simple, _READERS[0]))
+    expect_plugin(has_plugin())
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else paths
     connection = servermanager.ActiveConnection
     names = _names([os.fsdecode(path) for path in given], connection is not None and connection.IsRemote())
