@@ -10,6 +10,8 @@ import sys
 import warnings
 from typing import Any, Iterator, Sequence
 
+from .._library import KINDS
+
 # Each has a module of its name, with the functions `options(parser)` and `run(arguments)`.
 COMMANDS = {
     "info": "says what files hold: frames, steps, times, columns, box",
@@ -38,7 +40,7 @@ def add_reading(parser: argparse.ArgumentParser) -> None:
     """Adds the options of granular.open."""
     group = parser.add_argument_group("reading")
     group.add_argument("--dt", type=float, metavar="T", help="time of one timestep, in the unit of the run (default: times are timesteps)")
-    group.add_argument("--kind", choices=("dump", "local", "restart", "data", "euler", "decomposition"),
+    group.add_argument("--kind", choices=KINDS,
                        help="what the files are (default: as their contents say)")
     group.add_argument("--column-names", metavar="NAMES", default="", help="columns of binary dumps that do not name them: 'id type x y z'")
     group.add_argument("--preset", default="", help="order of the columns of contacts and bonds, by its name")
