@@ -43,12 +43,29 @@ void vtkGranularAlgorithm::SetPorts(
 //------------------------------------------------------------------------------
 void vtkGranularAlgorithm::SetThreads(int threads)
 {
-  if (threads < 0)
+  if (this->CheckRange("Threads", threads, 0, VTK_INT_MAX))
   {
-    vtkErrorMacro("Threads must be at least 0, got " << threads);
-    return;
+    this->Threads = threads; // changes no result: nothing is to be made again
   }
-  this->Threads = threads; // changes no result: nothing is to be made again
+}
+
+//------------------------------------------------------------------------------
+bool vtkGranularAlgorithm::CheckRange(
+  const char* name, vtkTypeInt64 value, vtkTypeInt64 least, vtkTypeInt64 most)
+{
+  if (value >= least && value <= most)
+  {
+    return true;
+  }
+  if (most < VTK_INT_MAX)
+  {
+    vtkErrorMacro(<< name << " must be from " << least << " to " << most << ", got " << value);
+  }
+  else
+  {
+    vtkErrorMacro(<< name << " must be at least " << least << ", got " << value);
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -18,6 +18,19 @@
 
 class vtkMultiProcessController;
 
+/**
+ * Defines the function that sets a property to a number in a range; another one is an error and changes nothing.
+ */
+#define vtkGranularSetRangeMacro(name, type, least, most)                   \
+  virtual void Set##name(type value)                                        \
+  {                                                                         \
+    if (this->CheckRange(#name, value, least, most) && this->name != value) \
+    {                                                                       \
+      this->name = value;                                                   \
+      this->Modified();                                                     \
+    }                                                                       \
+  }
+
 namespace vtkGranularPrivate
 {
 class Processes;
@@ -98,6 +111,11 @@ protected:
    */
   virtual void Execute(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) = 0;
+
+  /**
+   * Tells an error and returns false unless a number is in a range.
+   */
+  bool CheckRange(const char* name, vtkTypeInt64 value, vtkTypeInt64 least, vtkTypeInt64 most);
 
   /**
    * Asks all inputs for a piece, without ghosts.

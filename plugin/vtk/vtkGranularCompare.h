@@ -91,7 +91,7 @@ public:
    * has any. PREVIOUS: the frame before the current one; the first frame is compared with itself. TIME: the last frame at or before
    * ReferenceTime, or the first one. Inputs with one time or none are compared with themselves: all is kept.
    */
-  vtkSetClampMacro(Reference, int, FIRST, TIME);
+  vtkGranularSetRangeMacro(Reference, int, FIRST, TIME);
   vtkGetMacro(Reference, int);
   ///@}
 

@@ -85,7 +85,7 @@ public:
    * the radii give, r1 / (r1 + r2); without radii at half the line. HALF_BRANCH: at half the line, as compute stress/atom has it.
    * Contacts with walls always act at the wall.
    */
-  vtkSetClampMacro(LeverArm, int, CONTACT_POINT, HALF_BRANCH);
+  vtkGranularSetRangeMacro(LeverArm, int, CONTACT_POINT, HALF_BRANCH);
   vtkGetMacro(LeverArm, int);
   ///@}
 
@@ -106,7 +106,7 @@ public:
    * for others, until none is left: `coordination_without_rattlers`. At least 1; 2 by default: particles with one contact bear
    * nothing (C. Thornton, Geotechnique 50, 2000); 4 for spheres without friction.
    */
-  vtkSetClampMacro(RattlerContacts, int, 1, VTK_INT_MAX);
+  vtkGranularSetRangeMacro(RattlerContacts, int, 1, VTK_INT_MAX);
   vtkGetMacro(RattlerContacts, int);
   ///@}
 

@@ -79,7 +79,7 @@ public:
    * second particle; the line is short and may leave the box. SPLIT: from both particles to the faces, in parts.
    * AS_WRITTEN: from end to end, through the whole box.
    */
-  vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
+  vtkGranularSetRangeMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
   ///@}
 

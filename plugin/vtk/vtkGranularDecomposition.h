@@ -45,7 +45,7 @@ public:
    * RANKS: the bounds of the particles that each rank of the Controller (of ParaView) holds now, if any; a warning tells which
    * overlap. The first three do not depend on the ranks of the Controller.
    */
-  vtkSetClampMacro(Mode, int, PROCESSOR_GRID, RANKS);
+  vtkGranularSetRangeMacro(Mode, int, PROCESSOR_GRID, RANKS);
   vtkGetMacro(Mode, int);
   ///@}
 

@@ -50,9 +50,9 @@ public:
    * more than faces, by more than 1e-9 of the box's edge. CheckGaps: together they do not fill the smallest box around them,
    * by more than 1e-9 of its volume.
    */
-  vtkSetClampMacro(CheckOverlap, int, ANSWER_ERROR, ANSWER_NOTHING);
+  vtkGranularSetRangeMacro(CheckOverlap, int, ANSWER_ERROR, ANSWER_NOTHING);
   vtkGetMacro(CheckOverlap, int);
-  vtkSetClampMacro(CheckGaps, int, ANSWER_ERROR, ANSWER_NOTHING);
+  vtkGranularSetRangeMacro(CheckGaps, int, ANSWER_ERROR, ANSWER_NOTHING);
   vtkGetMacro(CheckGaps, int);
   ///@}
 

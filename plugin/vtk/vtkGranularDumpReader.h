@@ -81,7 +81,7 @@ public:
    * Sets the precision of the points: vtkAlgorithm::SINGLE_PRECISION (7 digits of the coordinate minus PointOrigin, half
    * the memory) or vtkAlgorithm::DOUBLE_PRECISION, the default.
    */
-  vtkSetClampMacro(PointPrecision, int, SINGLE_PRECISION, DOUBLE_PRECISION);
+  vtkGranularSetRangeMacro(PointPrecision, int, SINGLE_PRECISION, DOUBLE_PRECISION);
   vtkGetMacro(PointPrecision, int);
   ///@}
 
@@ -89,7 +89,7 @@ public:
   /**
    * Sets the cells: none, one with all points, or one per point. VERTEX, one per point, by default.
    */
-  vtkSetClampMacro(Vertices, int, NO_VERTICES, VERTEX);
+  vtkGranularSetRangeMacro(Vertices, int, NO_VERTICES, VERTEX);
   vtkGetMacro(Vertices, int);
   ///@}
 

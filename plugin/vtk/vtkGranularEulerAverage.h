@@ -79,9 +79,9 @@ public:
    * each layer of cells along ProfileAxis (0, 1 or 2; 2 by default), of which the other axes have one cell each, and the
    * `position` of its centre along the axis; see SetCellsBy for the number of layers.
    */
-  vtkSetClampMacro(OutputType, int, POINTS, PROFILE);
+  vtkGranularSetRangeMacro(OutputType, int, POINTS, PROFILE);
   vtkGetMacro(OutputType, int);
-  vtkSetClampMacro(ProfileAxis, int, 0, 2);
+  vtkGranularSetRangeMacro(ProfileAxis, int, 0, 2);
   vtkGetMacro(ProfileAxis, int);
   ///@}
 
@@ -94,7 +94,7 @@ public:
    * RELATIVE_SIZE: CellSizeRelative, the least edge in units of the largest diameter, above 0: cell_size_relative of fix
    * ave/euler, where LIGGGHTS' granular pair styles cut off at that distance. For POINTS only. 3 by default, as there.
    */
-  vtkSetClampMacro(CellsBy, int, COUNTS, RELATIVE_SIZE);
+  vtkGranularSetRangeMacro(CellsBy, int, COUNTS, RELATIVE_SIZE);
   vtkGetMacro(CellsBy, int);
   vtkSetVector3Macro(CellCounts, int);
   vtkGetVector3Macro(CellCounts, int);
@@ -121,9 +121,9 @@ public:
    * Periodic: BOUNDARY, the default: along axes that the flags of the input's box say to be periodic (`pp`) particles have
    * images, and what sticks out of a face comes in at the opposite one. NONE: particles are where they are.
    */
-  vtkSetClampMacro(Weights, int, CENTRE, HEAVISIDE);
+  vtkGranularSetRangeMacro(Weights, int, CENTRE, HEAVISIDE);
   vtkGetMacro(Weights, int);
-  vtkSetClampMacro(Periodic, int, BOUNDARY, NONE);
+  vtkGranularSetRangeMacro(Periodic, int, BOUNDARY, NONE);
   vtkGetMacro(Periodic, int);
   ///@}
 
@@ -132,7 +132,7 @@ public:
    * Sets what happens at faces of the grid, with a kernel. ALL_SPACE, the default: a kernel that reaches beyond the cells loses what is there. INSIDE: along axes that are
    * not periodic it ends at the faces of the grid, and each particle inside belongs to the cells as a whole; for walls there.
    */
-  vtkSetClampMacro(KernelBounds, int, ALL_SPACE, INSIDE);
+  vtkGranularSetRangeMacro(KernelBounds, int, ALL_SPACE, INSIDE);
   vtkGetMacro(KernelBounds, int);
   ///@}
 

@@ -48,7 +48,7 @@ public:
    * regular grids are an error. The first frame that has cells decides for all: where it is one grid, others must be one
    * with as many cells along each axis.
    */
-  vtkSetClampMacro(OutputType, int, POINTS, IMAGE_DATA);
+  vtkGranularSetRangeMacro(OutputType, int, POINTS, IMAGE_DATA);
   vtkGetMacro(OutputType, int);
   ///@}
 

@@ -50,7 +50,7 @@ public:
   /**
    * Sets the columns: of single PARTICLES, or STATISTICS over all; see the class. PARTICLES by default.
    */
-  vtkSetClampMacro(OutputType, int, PARTICLES, STATISTICS);
+  vtkGranularSetRangeMacro(OutputType, int, PARTICLES, STATISTICS);
   vtkGetMacro(OutputType, int);
   ///@}
 

@@ -66,7 +66,7 @@ public:
    * to the nearest image of the second; the line is short and may leave the box. SPLIT: from both ends to the faces, in
    * two or more parts; lines between unwrapped points are not split. AS_WRITTEN: from end to end.
    */
-  vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
+  vtkGranularSetRangeMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
   ///@}
 

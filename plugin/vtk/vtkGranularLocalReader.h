@@ -87,7 +87,7 @@ public:
    * - CONTACTS: the ends (6), id1 id2 periodic (pair/gran/local pos id); CONTACTS_FORCE: and the force;
    * - WALL_CONTACTS: the ends (6), mesh triangle id2 (wall/gran/local pos id); WALL_CONTACTS_FORCE: and the force.
    */
-  vtkSetClampMacro(Preset, int, AUTOMATIC, BOND_TYPE_IDS_FORCE);
+  vtkGranularSetRangeMacro(Preset, int, AUTOMATIC, BOND_TYPE_IDS_FORCE);
   vtkGetMacro(Preset, int);
   ///@}
 
@@ -108,7 +108,7 @@ public:
    * second end; the line is short and may leave the box. SPLIT: from both ends to the faces, in parts. AS_WRITTEN: from
    * end to end, through the whole box.
    */
-  vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
+  vtkGranularSetRangeMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
   ///@}
 

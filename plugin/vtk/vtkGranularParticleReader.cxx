@@ -21,21 +21,6 @@ vtkPolyData* vtkGranularParticleReader::GetOutput()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularParticleReader::SetStride(vtkTypeInt64 stride)
-{
-  if (stride < 1)
-  {
-    vtkErrorMacro("Stride must be at least 1, got " << stride);
-    return;
-  }
-  if (this->Stride != stride)
-  {
-    this->Stride = stride;
-    this->Modified();
-  }
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularParticleReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

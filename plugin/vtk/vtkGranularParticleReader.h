@@ -38,7 +38,7 @@ public:
    * the simulation holds them. UNWRAPPED: plus the image counts times the box vectors. SCALED: in units of the box
    * vectors, 0 to 1 inside the box.
    */
-  vtkSetClampMacro(Coordinates, int, ABSOLUTE, SCALED);
+  vtkGranularSetRangeMacro(Coordinates, int, ABSOLUTE, SCALED);
   vtkGetMacro(Coordinates, int);
   ///@}
 
@@ -65,7 +65,7 @@ public:
    * Sets the stride: n keeps the particles whose id is a multiple of n; without ids, every n-th row from the first.
    * Numbers below 1 are an error and change nothing. 1 by default: all particles.
    */
-  void SetStride(vtkTypeInt64 stride);
+  vtkGranularSetRangeMacro(Stride, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(Stride, vtkTypeInt64);
   ///@}
 

@@ -43,7 +43,7 @@ public:
   /**
    * Sets n of the particles whose id is a multiple of n, at least 1. 1 by default: all.
    */
-  vtkSetClampMacro(EveryNth, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGranularSetRangeMacro(EveryNth, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(EveryNth, vtkTypeInt64);
   ///@}
 
@@ -52,7 +52,7 @@ public:
    * Sets the number of particles to be chosen at random among those of the SelectionFrame, in which fewer may be. 0, the
    * default: all. The choice depends on the ids and the Seed alone, not on the order of particles or the ranks.
    */
-  vtkSetClampMacro(NumberOfSamples, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGranularSetRangeMacro(NumberOfSamples, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(NumberOfSamples, vtkTypeInt64);
   vtkSetMacro(Seed, int);
   vtkGetMacro(Seed, int);
@@ -90,7 +90,7 @@ public:
   /**
    * Sets n of every n-th frame in the TimeWindow, from its first on; at least 1. 1 by default: all.
    */
-  vtkSetClampMacro(FrameStride, int, 1, VTK_INT_MAX);
+  vtkGranularSetRangeMacro(FrameStride, int, 1, VTK_INT_MAX);
   vtkGetMacro(FrameStride, int);
   ///@}
 

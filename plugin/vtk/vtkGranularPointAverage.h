@@ -39,7 +39,7 @@ public:
   /**
    * Sets the shape of the kernel: GAUSSIAN, the default, LUCY or HEAVISIDE; see SetKernelWidth.
    */
-  vtkSetClampMacro(Kernel, int, GAUSSIAN, HEAVISIDE);
+  vtkGranularSetRangeMacro(Kernel, int, GAUSSIAN, HEAVISIDE);
   vtkGetMacro(Kernel, int);
   ///@}
 

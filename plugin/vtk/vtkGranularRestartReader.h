@@ -80,7 +80,7 @@ public:
    * - FLEXIBLE_FIBERS, 13 (until May 2021): these and equilibrium_length;
    * - FLEXIBLE_FIBERS_DAMAGE, 14 (later ones, SEAICE): these and damage, from 1 to 0 where the bond breaks.
    */
-  vtkSetClampMacro(HistoryLayout, int, AUTOMATIC, FLEXIBLE_FIBERS_DAMAGE);
+  vtkGranularSetRangeMacro(HistoryLayout, int, AUTOMATIC, FLEXIBLE_FIBERS_DAMAGE);
   vtkGetMacro(HistoryLayout, int);
   ///@}
 
@@ -90,7 +90,7 @@ public:
    * second particle; the line is short and may leave the box. SPLIT: from both particles to the faces, in parts.
    * AS_WRITTEN: from end to end, through the whole box.
    */
-  vtkSetClampMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
+  vtkGranularSetRangeMacro(PeriodicLines, int, MINIMUM_IMAGE, AS_WRITTEN);
   vtkGetMacro(PeriodicLines, int);
   ///@}
 

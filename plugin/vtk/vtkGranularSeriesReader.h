@@ -83,7 +83,7 @@ public:
    * default: pieces if the names differ in one number that counts from 0, and if the files share the first and most
    * timesteps, the boxes and the columns, but no particles; otherwise repetitions.
    */
-  vtkSetClampMacro(RepeatedSteps, int, AUTO, LAST);
+  vtkGranularSetRangeMacro(RepeatedSteps, int, AUTO, LAST);
   vtkGetMacro(RepeatedSteps, int);
   ///@}
 

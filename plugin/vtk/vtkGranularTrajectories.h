@@ -55,7 +55,7 @@ public:
    * Sets how paths across periodic faces are drawn. UNWRAPPED, the default: on, out of the box. SPLIT: cut at the faces, in
    * the box; paths between unwrapped points are not split.
    */
-  vtkSetClampMacro(PeriodicLines, int, UNWRAPPED, SPLIT);
+  vtkGranularSetRangeMacro(PeriodicLines, int, UNWRAPPED, SPLIT);
   vtkGetMacro(PeriodicLines, int);
   ///@}
 
@@ -65,7 +65,7 @@ public:
    * 0, the default: paths through all frames, whatever the current time is. The frames of the tail are kept, and only new
    * ones are read for the next time.
    */
-  vtkSetClampMacro(Tail, int, 0, VTK_INT_MAX);
+  vtkGranularSetRangeMacro(Tail, int, 0, VTK_INT_MAX);
   vtkGetMacro(Tail, int);
   ///@}
 

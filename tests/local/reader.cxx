@@ -286,14 +286,17 @@ TEST(LocalReaderVtk, EveryPreset)
   }
 }
 
-TEST(LocalReaderVtk, PresetIsClamped)
+TEST(LocalReaderVtk, WrongPresetIsAnErrorAndChangesNothing)
 {
   LinesReader reader({});
   EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::AUTOMATIC);
-  reader->SetPreset(-5);
-  EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::AUTOMATIC);
-  reader->SetPreset(1000);
-  EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::BOND_TYPE_IDS_FORCE);
+  reader->SetPreset(vtkGranularLocalReader::BONDS);
+  for (const int wrong : { -5, 1000 })
+  {
+    reader->SetPreset(wrong);
+    EXPECT_EQ(reader.Said(), Texts{ "Preset must be from 0 to 12, got " + std::to_string(wrong) });
+    EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::BONDS);
+  }
 }
 
 TEST(LocalReaderVtk, ColumnMap)
