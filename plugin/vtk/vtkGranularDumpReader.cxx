@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -65,8 +66,9 @@ std::optional<ReaderFrames> ReaderFrames::Find(vtkAlgorithm* consumer)
   {
     return {};
   }
-  return ReaderFrames{ &reader->Series->Run.index(),
-    granular::dump_request(reader->Series->MakeRequest()) };
+  granular::DumpRequest request = granular::dump_request(reader->Series->MakeRequest());
+  request.ranges = false; // which nobody asks for
+  return ReaderFrames{ &reader->Series->Run.index(), std::move(request) };
 }
 
 //------------------------------------------------------------------------------
