@@ -13,8 +13,8 @@ ROUNDED = 3  # pixels of a picture where two surfaces, or a surface and nothing,
 LEVELS = 1.5  # of 255: the table of colours has 256, and each value is rounded
 
 
-def made(points, **arrays):
-    """A source of particles."""
+def made(points, source=None, **arrays):
+    """A source of particles, or the one given with these in place of its own."""
     from paraview.simple import TrivialProducer  # a proxy: there once ParaView is connected
 
     data, places = vtkPolyData(), vtkPoints()
@@ -24,8 +24,9 @@ def made(points, **arrays):
         array = numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
         array.SetName(name)
         data.GetPointData().AddArray(array)
-    source = TrivialProducer()
+    source = source or TrivialProducer()
     source.GetClientSideObject().SetOutput(data)
+    source.MarkModified(source)
     source.UpdatePipeline()
     return source
 

@@ -91,7 +91,7 @@ def lines_of(output):
     for cell in range(output.GetNumberOfCells()):
         output.GetCellPoints(cell, points)
         rows = [points.GetId(i) for i in range(points.GetNumberOfIds())]
-        line = {name: array[rows].copy() for name, array in arrays.items()}
+        line = {name: array[rows] for name, array in arrays.items()}
         line["length"] = lengths[cell]
         found.setdefault(int(ids[cell]), []).append(line)
     for lines in found.values():

@@ -58,41 +58,40 @@ def turn_of(quaternion):
                         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
-def _norm(p, n1, n2):
-    """The norm whose unit ball is the superquadric, and its gradient."""
+def _gradient(p, n1, n2):
+    """What points away from the superquadric through a place, of no certain length."""
     a = numpy.abs(p)
-    most = numpy.maximum(a.max(-1), 1e-300)
-    b = a / most[..., None]
+    b = a / numpy.maximum(a.max(-1), 1e-300)[..., None]
     across = b[..., 0] ** n2 + b[..., 1] ** n2
-    total = across ** (n1 / n2) + b[..., 2] ** n1
     with numpy.errstate(divide="ignore", invalid="ignore"):
         outer = numpy.where(across > 0, across ** (n1 / n2 - 1), 0)
-    gradient = numpy.stack([outer * b[..., 0] ** (n2 - 1), outer * b[..., 1] ** (n2 - 1), b[..., 2] ** (n1 - 1)], -1)
-    gradient *= numpy.sign(p) * (total ** (1 / n1 - 1))[..., None]
-    return most * total ** (1 / n1), gradient
+    return numpy.sign(p) * numpy.stack([outer * b[..., 0] ** (n2 - 1), outer * b[..., 1] ** (n2 - 1), b[..., 2] ** (n1 - 1)], -1)
+
+
+def _within(p, n1, n2):
+    """Whether places are in the superquadric."""
+    a = numpy.abs(p)
+    return (a[..., 0] ** n2 + a[..., 1] ** n2) ** (n1 / n2) + a[..., 2] ** n1 <= 1
+
+
+def _halve(low, high, is_low, times):
+    """The middle of what remains where is_low says which half of an interval to go on with."""
+    for _ in range(times):
+        half = (low + high) / 2
+        up = is_low(half)
+        low, high = numpy.where(up, half, low), numpy.where(up, high, half)
+    return (low + high) / 2
 
 
 def _meet(origin, along, n1, n2):
-    """The parameters where rays enter and leave a superquadric, NaN where they miss it: by golden section and bisection."""
+    """The parameters where rays enter and leave a superquadric, NaN where they miss it: by bisection."""
     centre = -(origin * along).sum(-1) / (along * along).sum(-1)
     reach = 4 / numpy.sqrt((along * along).sum(-1))
-    at = lambda t: _norm(origin + t[..., None] * along, n1, n2)[0]
-    low, high = centre - reach, centre + reach
-    for _ in range(120):  # the norm is convex along the ray
-        a, b = low + (high - low) * 0.381966, high - (high - low) * 0.381966
-        left = at(a) < at(b)
-        low, high = numpy.where(left, low, a), numpy.where(left, b, high)
-    middle = (low + high) / 2
-    hit = at(middle) <= 1
-    ends = []
-    for sign in (-1, 1):
-        inside, outside = middle, centre + sign * reach
-        for _ in range(60):
-            half = (inside + outside) / 2
-            within = at(half) <= 1
-            inside, outside = numpy.where(within, half, inside), numpy.where(within, outside, half)
-        ends.append(numpy.where(hit, inside, numpy.nan))
-    return ends
+    at = lambda t: origin + t[..., None] * along
+    # the norm whose unit ball is the superquadric is convex along the ray: where it is least its slope changes sign
+    middle = _halve(centre - reach, centre + reach, lambda t: (_gradient(at(t), n1, n2) * along).sum(-1) < 0, 60)
+    hit = _within(at(middle), n1, n2)
+    return [numpy.where(hit, _halve(middle, centre + sign * reach, lambda t: _within(at(t), n1, n2), 60), numpy.nan) for sign in (-1, 1)]
 
 
 def cast(camera, points, axes, quaternions=None, powers=None, clip=None):
@@ -135,7 +134,7 @@ def cast(camera, points, axes, quaternions=None, powers=None, clip=None):
                 nearer = seen & (-place[..., 2] < best) & (-place[..., 2] <= camera.far)
             best[nearer] = -place[nearer][:, 2]
             number[nearer] = i
-            outward = _norm((o + t[..., None] * d)[nearer], n1, n2)[1] / axes[i] @ turn.T
+            outward = _gradient((o + t[..., None] * d)[nearer], n1, n2) / axes[i] @ turn.T
             normal[nearer] = side * outward / numpy.linalg.norm(outward, axis=-1, keepdims=True)
     depth = numpy.where(numbers >= 0, camera.depth(-numpy.where(numbers >= 0, bests, camera.near)), 1)
     return depth, normals, numbers

@@ -55,7 +55,7 @@ def check_depths(kind, scenes, most):
     """A depth buffer has the numbers from 0 to 2^24 - 1. Few are off by one more than one. Close to the camera such a unit can be less than
     the last place of a float that holds the distance of a particle and its size; there the depth is right to 2^-20 of the particles'
     extent. Steep surfaces are left out: a shift across the line of sight makes more of a depth there."""
-    seen_pixels, wrong, units, parts = 0, 0, [], []
+    seen_pixels, wrong, units, parts, source = 0, 0, [], [], None
     for _ in range(scenes):
         count = int(random.integers(1, 30))
         centre = random.choice([0, 0, 1e3, 2**20]) * numpy.array([1, -1, 0.5])
@@ -67,8 +67,10 @@ def check_depths(kind, scenes, most):
         if kind == "superquadrics":
             powers = random.choice([2, 2.5, 4, 8, 20], (count, 2)).astype(float)
             arrays.update(blockiness1=powers[:, 0], blockiness2=powers[:, 1])
-        source = made(points, radius=radius, **arrays)
-        shown(source)
+        source, new = made(points, source, radius=radius, **arrays), source is None
+        if new:
+            shown(source)
+        Render(view)  # or the clipping range is that of the scene before
         look(centre)
         camera, depths = seen()
         truth, normals, numbers = ray_caster.cast(camera, points, axes, turns, powers)
@@ -86,7 +88,7 @@ def check_depths(kind, scenes, most):
         distances = numpy.linalg.norm(points - (points[0] if camera.parallel else camera.position), axis=1) + axes.max(axis=1)
         units.append(off[distances[numbers[both]] * slope < 1])
         parts.append(numpy.clip(off - 1, 0, None) / (TOP * slope * numpy.sqrt(12)))
-        Delete(source)
+    Delete(source)
     units, parts = numpy.concatenate(units), numpy.concatenate(parts)
     print(f"{kind}: {seen_pixels} pixels, {wrong} on outlines wrong; depth off by at most {units.max():.0f} units, "
           f"{100 * (units > 1).mean():.2f} % by more than 1, {100 * (units > 2).mean():.4f} % by more than 2; beyond 1 by at most 2^{numpy.log2(parts.max()):.1f} of the extent")
