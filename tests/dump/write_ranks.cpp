@@ -63,9 +63,9 @@ TEST(WriteRanks, all_forms)
 {
   for (const Form& form : all_forms())
   {
-    const MadeRows rows(20000, small_box(form.tilted));
+    const MadeRows rows(9000, small_box(form.tilted)); // two chunks of values and more
     expect_same({ rows.view() }, atom_format(form, Dialect::Lammps),
-      { { 1 }, { 1, 1 }, { 7001, 6003, 1 }, { 0, 12000, knows_nothing } }, form.name());
+      { { 1 }, { 1, 1 }, { 3001, 3003, 1 }, { 0, 5000, knows_nothing } }, form.name());
   }
 }
 
@@ -83,7 +83,7 @@ TEST(WriteRanks, frames)
   {
     DumpFormat format;
     format.dialect = dialect;
-    expect_same(frames, format, some_shares, "text");
+    expect_same(frames, format, dialect == Dialect::Lammps ? some_shares : few_shares, "text");
     format.binary = true;
     format.columns = { "id", "type", "x", "y", "z", "v", "xsu", "image", "element" };
     expect_same(frames, format, few_shares, "binary");
@@ -229,7 +229,7 @@ TEST(WriteRanks, made_ids)
 
 TEST(WriteRanks, sorted)
 {
-  const MadeRows rows(20000, small_box(true));
+  const MadeRows fewer(9000, small_box(true));
   for (const Form& form : all_forms())
   {
     if (!form.tilted)
@@ -238,9 +238,10 @@ TEST(WriteRanks, sorted)
     }
     DumpFormat format = atom_format(form, Dialect::Lammps);
     format.sort_by_id = true;
-    expect_same({ rows.view() }, format,
-      { { 1 }, { 7000, 1 }, { 0, 9001, 1 }, { 1, knows_nothing, 1 } }, "sorted " + form.name());
+    expect_same({ fewer.view() }, format,
+      { { 1 }, { 3000, 1 }, { 0, 4001, 1 }, { 1, knows_nothing, 1 } }, "sorted " + form.name());
   }
+  const MadeRows rows(20000, small_box(true));
   DumpFormat format;
   format.sort_by_id = true;
   expect_same({ rows.view() }, format, some_shares, "sorted with all columns");

@@ -94,7 +94,7 @@ Scene part_of(const Scene& scene, const Communicator& ranks, unsigned seed)
 std::vector<EulerAverageRequest> some_requests()
 {
   const EulerGrid few = { lo, hi, { 3, 4, 2 } };
-  const EulerGrid many = { lo, hi, { 20, 24, 18 } };
+  const EulerGrid many = { lo, hi, { 15, 20, 16 } }; // of 4096 at most in a block
   return { request_of_contacts(few, CellWeights::Overlap),
     request_of_contacts(many, CellWeights::Centre),
     request_of_contacts(few, CellWeights::Kernel, KernelShape::Lucy, 0.5, KernelBounds::Inside),
