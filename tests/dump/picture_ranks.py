@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonCore import vtkPoints, vtkTypeInt64Array
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-PIECES, PIXELS, SCALE = 6, 400, 1.8  # SCALE: half the height of the picture
+PIECES, PIXELS, SCALE = 6, 280, 1.8  # SCALE: half the height of the picture
 random = numpy.random.default_rng(1)
 CENTRES = random.uniform(-1, 1, (60, 3))
 RADII = random.uniform(0.05, 0.3, 60)
