@@ -8,7 +8,6 @@ import time
 from pathlib import Path
 
 import granular
-import numpy as np
 from paraview.simple import *
 
 
@@ -19,17 +18,17 @@ def widen(source, target, tiles):
         for frame in frames:
             header, body = frame.split("ITEM: ATOMS ")
             names, *rows = body.splitlines()
-            columns = names.split()
-            table = np.array([row.split() for row in rows], float)
+            identity, x, y = map(names.split().index, ("id", "x", "y"))
             header = re.sub(r"^1200$", str(1200 * tiles ** 2), header, flags=re.M)
             header = re.sub(r"^(-0.05) 0.05$", f"-0.05 {0.1 * tiles - 0.05:g}", header, flags=re.M)
             out.write("ITEM: TIMESTEP\n" + header + "ITEM: ATOMS " + names + "\n")
             for tile in range(tiles ** 2):
-                table[:, columns.index("id")] += 1200 if tile else 0
-                moved = table.copy()
-                moved[:, columns.index("x")] += 0.1 * (tile % tiles)
-                moved[:, columns.index("y")] += 0.1 * (tile // tiles)
-                np.savetxt(out, moved, fmt="%.6g")
+                for row in rows:
+                    words = row.split()
+                    words[identity] = str(int(words[identity]) + 1200 * tile)
+                    words[x] = f"{float(words[x]) + 0.1 * (tile % tiles):.6g}"
+                    words[y] = f"{float(words[y]) + 0.1 * (tile // tiles):.6g}"
+                    out.write(" ".join(words) + "\n")
 
 
 def look(file, threads, picture):
