@@ -43,7 +43,7 @@ const FilesOfKind small_kinds[] = {
   { "binary, revision 2", GRANULAR_KIND_DUMP, { "tri_custom.bin" }, 2 },
   { "compressed", GRANULAR_KIND_DUMP, { "ortho_000000.dump.gz", "ortho_000050.dump.gz", "ortho_000100.dump.gz" }, 3 },
   { "pieces", GRANULAR_KIND_DUMP, { "pieces_1000.0.dump", "pieces_1000.1.dump", "pieces_1000.2.dump", "pieces_1000.3.dump" }, 1 },
-  { "contacts", GRANULAR_KIND_LOCAL, { "local/contacts.dump" }, 5 },
+  { "bonds", GRANULAR_KIND_LOCAL, { "local/chain_bonds.dump" }, 3 },
   { "contacts, compressed", GRANULAR_KIND_LOCAL, { "local/settled_contacts.dump.gz" }, 1 },
   { "contacts, rows alone", GRANULAR_KIND_LOCAL, { "local/pieces_3000.0.dump", "local/pieces_3000.1.dump", "local/pieces_3000.2.dump",
     "local/pieces_3000.3.dump" }, 1 },
