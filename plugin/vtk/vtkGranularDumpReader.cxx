@@ -67,7 +67,7 @@ std::optional<ReaderFrames> ReaderFrames::Find(vtkAlgorithm* consumer)
     return {};
   }
   granular::DumpRequest request = granular::dump_request(reader->Series->MakeRequest());
-  request.ranges = false; // which nobody asks for
+  request.ranges = false; // filters need none
   return ReaderFrames{ &reader->Series->Run.index(), std::move(request) };
 }
 

@@ -196,7 +196,7 @@ for name, kind, bad in (("MinimumForce", "of 0 or more", (-1, NAN, INFINITY)), (
     getattr(made, f"Set{name}")(0.5)
     works(made)
 made = made_of(lines=pairs(), RattlerContacts=0, LeverArm=7)
-assert made.GetRattlerContacts() == 1 and made.GetLeverArm() == 1
+assert made.GetRattlerContacts() == 2 and made.GetLeverArm() == 0
 
 # ---- parts of lines ------------------------------------------------------------------------------------------------------
 

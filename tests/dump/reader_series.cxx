@@ -96,11 +96,14 @@ TEST(ReaderSeries, RepeatedStepsSaysWhetherTheyAre)
   EXPECT_EQ(reader.Numbers("id")->GetComponent(0, 0),
     ReadPlain(Good("pieces_1000.2.dump"))[0].Number("id", 0)); // in the order of the files
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
-  // beyond the ends
-  reader->SetRepeatedSteps(7);
-  EXPECT_EQ(reader->GetRepeatedSteps(), vtkGranularDumpReader::LAST);
-  reader->SetRepeatedSteps(-1);
-  EXPECT_EQ(reader->GetRepeatedSteps(), vtkGranularDumpReader::AUTO);
+  for (const int wrong : { 7, -1 })
+  {
+    reader->SetRepeatedSteps(wrong);
+    EXPECT_NE(reader.Said->Errors.back().find(
+                "RepeatedSteps must be from 0 to 2, got " + std::to_string(wrong)),
+      std::string::npos);
+    EXPECT_EQ(reader->GetRepeatedSteps(), vtkGranularDumpReader::MERGE);
+  }
 }
 
 // ---- files that grow ---------------------------------------------------------------------------

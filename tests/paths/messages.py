@@ -66,6 +66,15 @@ def fails(filter_, *parts):
     assert size_of(filter_) == 0 and filter_.GetErrorCode() != 0
 
 
+def refuses(filter_, name, value, range_):
+    """A number outside a range is an error, and changes nothing."""
+    before = getattr(filter_, f"Get{name}")()
+    filter_.said.clear()
+    set_all(filter_, **{name: value})
+    assert len(filter_.said) == 1 and f"{name} must be {range_}, got {value}" in filter_.said[0], filter_.said
+    assert getattr(filter_, f"Get{name}")() == before
+
+
 # ---- properties ----------------------------------------------------------------------------------------------------
 
 for kind in ("Trajectories", "History"):
@@ -91,12 +100,11 @@ for kind in ("Trajectories", "History"):
             works(filter_)
         # what cannot be set
         for name, value, least in (("EveryNth", 0, 1), ("FrameStride", -3, 1), ("NumberOfSamples", -1, 0)):
-            set_all(filter_, **{name: value})
-            assert getattr(filter_, f"Get{name}")() == least
+            refuses(filter_, name, value, f"at least {least}")
 
 trajectories = filter_of("Trajectories", reader_of(walk))
-set_all(trajectories, Tail=-2, PeriodicLines=7)
-assert trajectories.GetTail() == 0 and trajectories.GetPeriodicLines() == 1
+refuses(trajectories, "Tail", -2, "at least 0")
+refuses(trajectories, "PeriodicLines", 7, "from 0 to 1")
 
 # the frame of the choice does not matter where nothing is chosen there
 trajectories.SetSelectionFrame(1000)

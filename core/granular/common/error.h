@@ -81,7 +81,7 @@ class UnsupportedError : public Error
   using Error::Error;
 };
 
-/// An argument that cannot be used, such as a choice that there is not.
+/// An argument that cannot be used, such as an unknown name.
 class ArgumentError : public Error
 {
   using Error::Error;

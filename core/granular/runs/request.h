@@ -31,6 +31,13 @@ struct RunOptions
   int history_layout = automatic_history; ///< restart files: see make_bond_schema
   int threads = 1;                        ///< at least 1; changes no result
 
+  /// Returns true if the files tell the same with other options: with another number of threads.
+  bool tell_the_same(RunOptions others) const
+  {
+    others.threads = threads;
+    return *this == others;
+  }
+
   bool operator==(const RunOptions&) const = default;
 };
 
@@ -58,7 +65,7 @@ struct Request
   std::shared_ptr<BlockPool> pool; ///< source of the memory; may be null
 };
 
-/// Writes everything in which ranks that read a frame together must agree, but for the arrays.
+/// Writes everything in which ranks that read a frame together must agree, but for the arrays and the piece.
 inline void pass_form(ArchiveWriter& archive, const Request& request, const RunOptions& options)
 {
   archive.number(request.coordinates);
@@ -69,6 +76,8 @@ inline void pass_form(ArchiveWriter& archive, const Request& request, const RunO
   archive.number(request.stride);
   archive.number(request.region);
   archive.number(request.periodic_lines);
+  archive.number(request.bonds);
+  archive.number(request.ranges);
   archive.number(request.pieces);
   archive.text(options.preset);
   archive.text(options.column_map);

@@ -34,12 +34,12 @@ void Run::refresh(const std::vector<std::string>& files, const RunOptions& optio
 
 void Run::set_options(const RunOptions& options)
 {
-  if (options_ != options)
+  if (!options_.tell_the_same(options))
   {
-    options_ = options;
     offers_.clear();
     looked_at_.clear();
   }
+  options_ = options;
 }
 
 /// Frames with the same columns tell the same; files without a kind of frames are asked one by one.

@@ -16,7 +16,8 @@
 
 namespace granular
 {
-/// Files of one kind as a run: the index of their frames, and what the files tell of these. A value: copies are independent.
+/// Files of one kind as a run: the index of their frames, and what the files tell of these. offer() changes it; several threads may only
+/// read frames together.
 class Run
 {
 public:
@@ -33,13 +34,13 @@ public:
   void refresh(const std::vector<std::string>& files, const RunOptions& options,
     Communicator& ranks, Notices& notices, Progress& progress);
 
-  /// Takes options that leave the index as it is: others than column_names and repeated_steps.
+  /// Takes options. Others of column_names and repeated_steps need a refresh.
   void set_options(const RunOptions& options);
 
   /// Returns what the files tell of a frame. They are asked once for all frames with the same columns. Throws Error; Cancelled.
   const Offer& offer(std::size_t frame, Progress& progress);
 
-  /// Returns what is known of it already; nothing if the files were not asked.
+  /// Returns what offer() has returned for a frame, or look() has found; nothing if the files were not asked.
   const Offer& known_offer(std::size_t frame) const;
 
   /// Makes all ranks know the arrays of all frames, which rank 0 asks the files for. Collective.

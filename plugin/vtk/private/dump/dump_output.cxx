@@ -166,7 +166,7 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   }
 }
 
-void FillLeftOut(vtkInformationVector* outputs, const granular::DumpRequest& request)
+void FillLeftOut(vtkInformationVector* outputs, const granular::Request& request)
 {
   std::vector<std::string> names;
   if (request.stride > 1)

@@ -3,6 +3,7 @@
 #define vtkGranularDumpOutput_h
 
 #include "granular/dump/read/dump_reader.h"
+#include "granular/runs/request.h"
 
 #include <memory>
 #include <string>
@@ -50,7 +51,7 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
  * Adds ParticlesLeftOut to all outputs, which names the properties by which a reader leaves out particles; nothing if all are present.
  * VTK's filters pass field data on, so filters that need all particles can report missing ones.
  */
-void FillLeftOut(vtkInformationVector* outputs, const granular::DumpRequest& request);
+void FillLeftOut(vtkInformationVector* outputs, const granular::Request& request);
 std::string FindLeftOut(vtkFieldData* data); ///< in words: "Stride 10, RegionOfInterest", or empty
 
 /**

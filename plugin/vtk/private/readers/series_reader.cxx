@@ -54,7 +54,7 @@ void vtkGranularSeriesReader::Internals::Update()
   options.repeated_steps = static_cast<granular::RepeatedSteps>(this->Self->RepeatedSteps);
   options.threads = this->GetThreads();
   this->SetOptions(options);
-  if (options != this->Run.options())
+  if (!this->Run.options().tell_the_same(options))
   {
     this->LookedAt.reset();
   }
@@ -309,5 +309,5 @@ void vtkGranularSeriesReader::Internals::FillParticles(
   {
     particles->GetFieldData()->AddArray(MakeStrings("Groups", frame.groups));
   }
-  FillLeftOut(shown.Outputs, granular::dump_request(request));
+  FillLeftOut(shown.Outputs, request);
 }
