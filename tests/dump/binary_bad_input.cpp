@@ -210,8 +210,8 @@ TEST(BinaryBadInput, TheFieldAtFaultIsNamed)
     { "triclinic", 3, "expected triclinic 0, 1 or 2, got 3" },
     { "triclinic", 2, "expected triclinic 0 or 1, got 2" },
     { "boundary", 4, "expected a boundary flag from 0 to 3, got 4" },
-    { "size_one", 0, "expected 1 to 10000 columns, got 0" },
-    { "size_one", 10001, "expected 1 to 10000 columns, got 10001" },
+    { "size_one", 0, "expected 1 to 5000 columns, got 0" },
+    { "size_one", 5001, "expected 1 to 5000 columns, got 5001" },
     { "units length", -1, "expected the length of the units, got -1" },
     { "columns length", 1048577, "expected the length of the names of the columns, got 1048577" },
     { "nchunk", 0, "expected 1 to 16777216 chunks, got 0" },
@@ -291,7 +291,7 @@ TEST(BinaryBadInput, ADamagedFrameEndsTheFileAndIsSaid)
     EXPECT_TRUE(is_whole(dump.read(), binary::grains(form, 1, 3)));
     EXPECT_EQ(dump.said(),
       "memory@" + std::to_string(second->offset) +
-        ": expected 1 to 10000 columns, got 0; the frame and all that follow are left out\n");
+        ": expected 1 to 5000 columns, got 0; the frame and all that follow are left out\n");
     // something else behind the last frame
     const Dump behind(good.bytes + std::string(200, '\x55'), binary::names_for(form));
     EXPECT_EQ(behind.frames(), 3u);

@@ -180,14 +180,14 @@ TEST_F(LoadFiles, ManyColumns)
   {
     const Opened opened = open_kind(path, GRANULAR_KIND_AUTOMATIC);
     ASSERT_EQ(opened.error + opened.notices, "");
-    const char* const names[] = { "a3", "a100000" };
+    const char* const names[] = { "a3", "a4996" };
     granular_request request;
     granular_request_init(&request);
     request.arrays = names;
     request.array_count = 2;
     const FrameHandle frame = read_frame(opened.run, 0, &request);
     EXPECT_EQ(doubles(frame, "a3"), std::vector<double>{ 3 });
-    EXPECT_EQ(doubles(frame, "a100000"), std::vector<double>{ 100'000 });
+    EXPECT_EQ(doubles(frame, "a4996"), std::vector<double>{ 4996 });
   }
   load.end(many_columns * 2048);
 }

@@ -473,7 +473,7 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
       "first");
   const std::string zeros = folder.write("zeros", std::string(5'000'000, '\0'));
   EXPECT_EQ(error(zeros),
-    zeros + "@92: expected 1 to 10000 columns, got 0; no known layout of a binary dump fits");
+    zeros + "@92: expected 1 to 5000 columns, got 0; no known layout of a binary dump fits");
   const std::string one_line = folder.write("one", std::string(1000, 'x'));
   EXPECT_EQ(error(one_line), one_line + ": expected a dump, got no complete frame");
   const std::string cut = folder.write("cut", frame(0).substr(0, 60));

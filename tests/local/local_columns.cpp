@@ -202,27 +202,6 @@ TEST(ColumnMap, NamesAndKeywords)
     "id1 id2 periodic history1 history2 history3");
 }
 
-// What looks at all columns for each of them would not end here.
-TEST(ColumnMap, HundredThousandColumns)
-{
-  constexpr std::size_t many = 100'000;
-  std::vector<std::string> columns;
-  std::string pairs;
-  for (std::size_t i = 1; i <= many; ++i)
-  {
-    columns.push_back("c_a[" + std::to_string(i) + "]");
-    pairs += "n" + std::to_string(i) + "=c_a[" + std::to_string(many + 1 - i) + "] ";
-  }
-  const std::vector<std::string> named = granular::name_columns(columns, pairs);
-  EXPECT_EQ(named.front(), "n100000");
-  EXPECT_EQ(named.back(), "n1");
-  const std::vector<std::string> history =
-    granular::name_columns(columns, std::string("id history"));
-  EXPECT_EQ(history[2], "periodic");
-  EXPECT_EQ(history[3], "history1");
-  EXPECT_EQ(history.back(), "history99997");
-}
-
 TEST(ColumnMap, Errors)
 {
   const std::vector<std::string> columns = { "c_a[1]", "c_a[2]", "c_a[3]" };

@@ -1,34 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of a hundred thousand columns: what takes time in proportion to the square of their number does not end before
-// a test is stopped.
+// Lines of as many words as a frame may have columns.
 #ifndef granular_tests_support_many_columns_h
 #define granular_tests_support_many_columns_h
 
+#include "granular/common/words.h"
+
 #include <string>
 
-constexpr int many_columns = 100'000;
+constexpr int many_columns = 5000;
 
-/// The words before them, if any, and then that of each number from 1.
-template <class Word>
-std::string line_of_many(std::string line, const Word& word)
+/// The words before them, and then those of a form, in which '#' stands for the number from 1, until there are so many.
+inline std::string line_of_many(std::string line, const std::string& form, int count = many_columns)
 {
-  for (int i = 1; i <= many_columns; ++i)
+  const std::size_t at = form.find('#');
+  const int before = static_cast<int>(granular::split_words(line).size());
+  for (int i = 1; i <= count - before; ++i)
   {
     line += line.empty() ? "" : " ";
-    line += word(i);
+    line += at == form.npos ? form : form.substr(0, at) + std::to_string(i) + form.substr(at + 1);
   }
   return line;
-}
-
-/// The same by a form of words: '#' stands for the number.
-inline std::string line_of_many(const std::string& line, const char* form)
-{
-  const std::string text = form;
-  const std::size_t at = text.find('#');
-  return line_of_many(line,
-    [&](int i) {
-      return at == text.npos ? text : text.substr(0, at) + std::to_string(i) + text.substr(at + 1);
-    });
 }
 
 #endif

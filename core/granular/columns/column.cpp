@@ -208,10 +208,21 @@ const KnownColumn* find_known_column(
   return found == table.end() ? nullptr : &*found;
 }
 
+void check_column_count(std::size_t columns, const Where& where)
+{
+  if (columns > most_columns)
+  {
+    throw LimitError("expected at most " + std::to_string(most_columns) + " columns, got " +
+        std::to_string(columns),
+      where);
+  }
+}
+
 ColumnSchema::ColumnSchema(
-  const std::vector<std::string>& names, std::span<const KnownColumn> table)
+  const std::vector<std::string>& names, std::span<const KnownColumn> table, const Where& where)
   : table_(table)
 {
+  check_column_count(names.size(), where);
   std::set<std::pair<ColumnRole, int>> taken;
   for (const std::string& name : names)
   {

@@ -2,8 +2,10 @@
 #ifndef granular_columns_column_h
 #define granular_columns_column_h
 
+#include "granular/common/error.h"
 #include "granular/common/value_type.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -54,6 +56,12 @@ std::span<const KnownColumn> known_columns() noexcept;
 const KnownColumn* find_known_column(
   std::string_view name, std::span<const KnownColumn> table = known_columns()) noexcept;
 
+/// The most columns of a frame that are read or written.
+inline constexpr int most_columns = 5000;
+
+/// Throws LimitError for more than most_columns.
+void check_column_count(std::size_t columns, const Where& where = {});
+
 /// One column of a file.
 struct ColumnInfo
 {
@@ -100,10 +108,10 @@ public:
 
   ColumnSchema() = default;
 
-  /// Makes the schema of named columns. The table must outlive the schema and its copies. Time is proportional to the
-  /// number of columns.
-  explicit ColumnSchema(
-    const std::vector<std::string>& names, std::span<const KnownColumn> table = known_columns());
+  /// Makes the schema of named columns. The table must outlive the schema and its copies. Throws
+  /// LimitError, with the place of the names, for more than most_columns.
+  explicit ColumnSchema(const std::vector<std::string>& names,
+    std::span<const KnownColumn> table = known_columns(), const Where& where = {});
 
   const std::vector<ColumnInfo>& columns() const noexcept { return columns_; }
   const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
@@ -122,11 +130,10 @@ public:
 
   /// Changes the types of columns. An integer column with other numbers becomes Float64 and is no longer open, together with
   /// the other columns of its array; so does one of Int32 or Float64 that becomes Int64, which stays open. An unknown column
-  /// with words becomes Text by itself, which may split an array. Ids that are not integers lose the role Id. Time is
-  /// proportional to the number of columns, however many change.
+  /// with words becomes Text by itself, which may split an array. Ids that are not integers lose the role Id.
   void set_types(std::span<const TypeChange> changes);
 
-  /// Changes the type of one column. Changing n columns one by one takes time proportional to n^2.
+  /// Changes the type of one column.
   void set_type(int column, ValueType type);
 
   bool operator==(const ColumnSchema& other) const;

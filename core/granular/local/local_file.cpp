@@ -38,14 +38,14 @@ bool is_headless(const FrameEntry& entry)
 }
 
 /// As many columns as the first row has words, whose names are in the header of another file.
-ColumnSchema unnamed_columns(std::string_view first_row)
+ColumnSchema unnamed_columns(std::string_view first_row, const Where& where)
 {
   std::vector<std::string> names;
   for (std::size_t i = 1; i <= split_words(first_row).size(); ++i)
   {
     names.push_back("column" + std::to_string(i));
   }
-  return ColumnSchema(names);
+  return ColumnSchema(names, known_columns(), where);
 }
 
 void index_bare(
@@ -67,7 +67,7 @@ void index_bare(
     {
       if (has_words(line))
       {
-        kind.schema = unnamed_columns(line);
+        kind.schema = unnamed_columns(line, scanner.where());
         scanner.put_back();
         break;
       }

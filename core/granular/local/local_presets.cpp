@@ -81,25 +81,13 @@ std::set<std::string_view> check_distinct(const std::vector<std::string>& names)
   return seen;
 }
 
-/// The first column of each name.
-std::map<std::string_view, std::size_t> places_of(const std::vector<std::string>& columns)
-{
-  std::map<std::string_view, std::size_t> places;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    places.try_emplace(columns[i], i);
-  }
-  return places;
-}
-
 /// The column that a word of a map means, by name or number.
-std::size_t column_of(const std::vector<std::string>& columns,
-  const std::map<std::string_view, std::size_t>& places, const std::string& word)
+std::size_t column_of(const std::vector<std::string>& columns, const std::string& word)
 {
-  const auto found = places.find(word);
-  if (found != places.end())
+  const auto found = std::ranges::find(columns, word);
+  if (found != columns.end())
   {
-    return found->second;
+    return static_cast<std::size_t>(found - columns.begin());
   }
   std::int64_t number = 0;
   if (parse_int64(word.data(), word.data() + word.size(), number) && number >= 1 &&
@@ -116,7 +104,6 @@ std::vector<std::string> name_by_pairs(
 {
   std::vector<std::string> names = name_columns(columns);
   std::map<std::size_t, std::string> given;
-  const std::map<std::string_view, std::size_t> places = places_of(columns);
   std::vector<std::string> all;
   for (const std::string& pair : pairs)
   {
@@ -127,7 +114,7 @@ std::vector<std::string> name_by_pairs(
         "expected NAME=COLUMN in the column map, as in its other words, got '" + pair + "'");
     }
     const std::string name(local_name(pair.substr(0, equals)));
-    const std::size_t column = column_of(columns, places, pair.substr(equals + 1));
+    const std::size_t column = column_of(columns, pair.substr(equals + 1));
     if (!given.emplace(column, name).second)
     {
       throw FormatError("expected each column once in the column map, got " + columns[column] +

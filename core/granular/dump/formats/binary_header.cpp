@@ -32,7 +32,6 @@ constexpr BinaryLayout layouts[] = {
 };
 // clang-format on
 
-constexpr std::int32_t most_columns = 10000;
 constexpr std::int32_t most_chunks = 1 << 24;
 constexpr std::int32_t longest_text = 1 << 20;
 constexpr std::int64_t longest_magic = 64;

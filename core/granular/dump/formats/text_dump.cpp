@@ -42,7 +42,7 @@ ColumnSchema make_schema(std::vector<std::string> names,
   {
     names = unnamed_columns(first_row.size(), where);
   }
-  ColumnSchema schema(names);
+  ColumnSchema schema(names, known_columns(), where);
   std::vector<ColumnSchema::TypeChange> texts;
   for (std::size_t i = 0; i < std::min(names.size(), first_row.size()); ++i)
   {

@@ -109,6 +109,7 @@ std::vector<std::string> expand_table_columns(
 
 ColumnPlan plan_table_columns(const std::vector<std::string>& names, const FrameView& frame)
 {
+  check_column_count(names.size());
   ColumnPlan plan;
   const TableColumns columns(frame);
   for (const std::string& name : names)
