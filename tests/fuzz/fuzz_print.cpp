@@ -5,6 +5,7 @@
 #include "granular/numbers/number.h"
 #include "granular/numbers/number_cells.h"
 #include "granular/numbers/number_print.h"
+#include "granular/numbers/number_print_few.h"
 
 #include <array>
 #include <bit>
@@ -109,7 +110,7 @@ void check_fixed(double value)
 void check_integer(std::int64_t value)
 {
   std::array<char, most_number_chars> text;
-  const std::string printed(text.data(), print_integer(text.data(), value));
+  const std::string printed(text.data(), number_print::print_whole(text.data(), value));
   require(printed == std::to_string(value), "integer", static_cast<double>(value), printed);
   std::int64_t back = 0;
   require(parse_int64(printed.data(), printed.data() + printed.size(), back) && back == value,

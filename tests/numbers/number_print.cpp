@@ -5,6 +5,7 @@
 #include "../support/exact_decimal.h"
 #include "../support/hard_case.h"
 #include "granular/common/error.h"
+#include "granular/numbers/number_print_few.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +49,7 @@ std::string printed_exactly(double value, int digits)
 
 std::string printed_integer(std::int64_t value)
 {
-  return text_of([&](char* to) { return granular::print_integer(to, value); });
+  return text_of([&](char* to) { return granular::number_print::print_whole(to, value); });
 }
 
 std::string by_printf(double value, int digits)

@@ -22,12 +22,12 @@ struct NumberCells
   std::uint8_t end_chars;  ///< how much of it: 0 to 2
 };
 
-/// Prints `count` numbers that are `step` apart as print_number does. whole: integral ones below 2^53 have all their digits,
-/// as print_integer prints them. The text is the same for all instruction sets; simd must be one of this processor.
+/// Prints `count` numbers that are `step` apart as print_number does. whole: integral ones below 2^53 have all their digits.
+/// The text is the same for all instruction sets; simd must be one of this processor.
 void print_numbers(const double* from, std::int64_t step, std::size_t count, NumberFormat format,
   bool whole, const NumberCells& to, Simd simd = best_simd()) noexcept;
 
-/// Prints `count` integers that are `step` apart as print_integer does.
+/// Prints `count` integers that are `step` apart as %d does.
 void print_integers(
   const std::int32_t* from, std::int64_t step, std::size_t count, const NumberCells& to) noexcept;
 void print_integers(

@@ -301,11 +301,6 @@ char* print_fixed(char* to, double value) noexcept
   return std::to_chars(to, to + most_fixed_chars, value, std::chars_format::fixed, 6).ptr;
 }
 
-char* print_integer(char* to, std::int64_t value) noexcept
-{
-  return print_whole(to, value);
-}
-
 NumberFormat parse_number_format(std::string_view text)
 {
   if (text == "Automatic")

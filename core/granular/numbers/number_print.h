@@ -30,7 +30,7 @@ NumberFormat parse_number_format(std::string_view text);
 /// Returns the text of a format: "%g", "%.9g", "shortest".
 std::string to_text(NumberFormat format);
 
-/// print_number and print_integer may write to this many bytes from `to` on, whatever they print.
+/// print_number may write to this many bytes from `to` on, whatever it prints.
 inline constexpr std::size_t most_number_chars = 32;
 
 /// Prints a number, with nan and inf as glibc prints them, and returns the end. Never allocates and ignores the locale.
@@ -51,9 +51,6 @@ char* print_fixed(char* to, double value) noexcept;
 
 /// Returns the number that is read back after print_fixed.
 double as_fixed(double value) noexcept;
-
-/// Prints an integer as %d does, and returns the end.
-char* print_integer(char* to, std::int64_t value) noexcept;
 
 /// Appends a line of words and integers.
 template <class... Words>
