@@ -57,12 +57,12 @@ void vtkGranularDecompositionReader::Internals::Show(Shown& shown)
   }
 
   const auto [begin, end] = shown.Piece.RangeOf(static_cast<vtkTypeInt64>(all.subdomains.size()));
-  granular::Decomposition part = { {}, all.has_particles, all.has_ranks };
-  part.subdomains.assign(all.subdomains.begin() + begin, all.subdomains.begin() + end);
+  all.subdomains.erase(all.subdomains.begin() + end, all.subdomains.end());
+  all.subdomains.erase(all.subdomains.begin(), all.subdomains.begin() + begin);
   VoxelForm form;
   form.Threads = this->GetThreads();
   shown.Progress.set_part(0.8, 1);
-  FillVoxels(output, part, form, shown.Progress);
+  FillVoxels(output, all, form, shown.Progress);
 }
 
 //------------------------------------------------------------------------------
