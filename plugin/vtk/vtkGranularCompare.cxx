@@ -4,8 +4,7 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
 #include "private/local/local_rows.h"
-#include "private/paths/changed_rows.h"
-#include "private/paths/kept_frames.h"
+#include "private/paths/compared_frames.h"
 #include "private/request/errors.h"
 #include "private/request/request_task.h"
 
@@ -14,7 +13,6 @@
 #include "granular/local/fetch_particles.h"
 #include "granular/numbers/number_print.h"
 #include "granular/particles/point_forms.h"
-#include "granular/paths/compare_lines.h"
 #include "granular/paths/compare_particles.h"
 #include "granular/paths/fragments.h"
 

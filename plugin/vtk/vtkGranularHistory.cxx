@@ -6,8 +6,8 @@
 
 #include "granular/common/words.h"
 #include "granular/parallel/executor.h"
-#include "granular/parallel/gather.h"
-#include "granular/paths/exchange_frames.h"
+#include "granular/parallel/trade.h"
+#include "granular/paths/path_frame.h"
 #include "granular/paths/square_displacements.h"
 #include "granular/paths/statistics.h"
 

@@ -10,7 +10,7 @@
 #include "granular/local/join.h"
 #include "granular/local/lines.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/frame_view.h"
 #include "granular/particles/point_forms.h"
 

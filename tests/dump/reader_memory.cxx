@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays and cells whose memory comes from a pool and goes back there.
 #include "../../plugin/vtk/private/arrays/arrays.h"
-#include "../../plugin/vtk/private/arrays/pool.h"
 
 #include "granular/memory/block_pool.h"
 

@@ -15,7 +15,7 @@ READING = (
     ("frames", r"granular/frames/", None),
     ("dump/formats", r"granular/dump/formats/", None),
     ("dump/read", r"granular/dump/read/", None),
-    ("local", r"granular/local/", "fetch_particles|id_directory|join"),
+    ("local", r"granular/local/", "fetch_particles|id_finder|join"),
     ("euler", r"granular/euler/(euler_|regular_grids)", None),
     ("decomposition", r"granular/decomposition/",
      "count_particles|find_process_grid|particle_bounds|process_grid"),

@@ -3,7 +3,7 @@
 #ifndef granular_tests_paths_compare_checks_h
 #define granular_tests_paths_compare_checks_h
 
-#include "granular/paths/compare_lines.h"
+#include "granular/paths/compare_particles.h"
 #include "granular/paths/fragments.h"
 
 #include "../support/hard_case.h"

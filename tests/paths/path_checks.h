@@ -6,7 +6,7 @@
 #include "../support/thread_ranks.h"
 #include "walks.h"
 
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/paths/square_displacements.h"
 #include "granular/paths/statistics.h"
 

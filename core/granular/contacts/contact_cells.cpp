@@ -5,7 +5,7 @@
 #include "granular/euler/block_sums.h"
 #include "granular/euler/grain_values.h"
 #include "granular/geometry/reproducible_sum.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include "granular/contacts/contact_rows.h"
 
 #include "granular/common/error.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <array>
 #include <bit>

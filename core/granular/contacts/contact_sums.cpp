@@ -7,7 +7,6 @@
 #include "granular/contacts/sum_ends.h"
 #include "granular/geometry/symmetric_tensor.h"
 #include "granular/grid/sphere_box.h"
-#include "granular/parallel/by_rank.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "granular/contacts/find_ends.h"
 
 #include "granular/common/error.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/point_forms.h"
 

@@ -6,7 +6,6 @@
 #include "granular/contacts/contact_ends.h"
 #include "granular/contacts/contact_rows.h"
 #include "granular/local/fetch_particles.h"
-#include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
 #include "granular/local/minimum_image.h"
 #include "granular/memory/block.h"

@@ -3,7 +3,6 @@
 
 #include "granular/grid/periodic_images.h"
 #include "granular/grid/sphere_box.h"
-#include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>

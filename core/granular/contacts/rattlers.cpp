@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/contacts/rattlers.h"
 
-#include "granular/parallel/by_rank.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>

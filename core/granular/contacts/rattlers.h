@@ -3,7 +3,7 @@
 #define granular_contacts_rattlers_h
 
 #include "granular/common/progress.h"
-#include "granular/local/id_directory.h"
+#include "granular/local/id_finder.h"
 #include "granular/parallel/communicator.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/data_file/atom_styles.h"
+#include "granular/data_file/read_data.h"
 
 #include "granular/common/words.h"
 

@@ -7,7 +7,7 @@
 #include "granular/geometry/region.h"
 #include "granular/local/join.h"
 #include "granular/local/local_columns.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/dump_frame.h"
 #include "granular/sorting/sort_rows.h"
 

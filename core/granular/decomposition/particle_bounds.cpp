@@ -2,7 +2,7 @@
 #include "granular/common/error.h"
 #include "granular/decomposition/count_particles.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/particles/point_forms.h"

@@ -4,7 +4,7 @@
 #include "granular/decomposition/subdomain_tree.h"
 #include "granular/geometry/compensated.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "granular/euler/average_passes.h"
 #include "granular/memory/mapping.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "granular/euler/average_passes.h"
 #include "granular/grid/sphere_box.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <cmath>

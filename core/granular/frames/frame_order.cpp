@@ -3,7 +3,6 @@
 
 #include "granular/common/error.h"
 #include "granular/common/pass.h"
-#include "granular/frames/piece_sets.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,15 +4,28 @@
 
 #include "granular/common/archive.h"
 #include "granular/common/error.h"
+#include "granular/frames/file_index.h"
 #include "granular/frames/run_index.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace granular
 {
+/// Files that hold pieces of the same frames.
+struct PieceSet
+{
+  std::vector<std::uint32_t> files; ///< in the order of the pieces
+  std::size_t expected = 0;         ///< how many pieces a frame has
+  std::string missing;              ///< the numbers that no file of the set has
+};
+
+/// Returns the sets of files that can only be pieces of the same frames: see RepeatedSteps.
+std::vector<PieceSet> find_piece_sets(const std::vector<FileIndex>& files);
+
 /// The frames of a run, ordered by timestep, and the places of their pieces: the part of a RunIndex that distinguishes
 /// runs.
 struct FrameOrder

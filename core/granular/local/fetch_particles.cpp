@@ -4,8 +4,6 @@
 #include "granular/common/error.h"
 #include "granular/local/id_finder.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/by_rank.h"
-#include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/point_forms.h"

@@ -3,7 +3,7 @@
 #define granular_local_fetch_particles_h
 
 #include "granular/common/progress.h"
-#include "granular/local/id_directory.h"
+#include "granular/local/id_finder.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"

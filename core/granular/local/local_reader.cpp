@@ -3,7 +3,7 @@
 
 #include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <array>

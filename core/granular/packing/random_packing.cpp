@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/packing/random_packing.h"
+#include "granular/packing/packing_plan.h"
 
 #include "granular/common/error.h"
 

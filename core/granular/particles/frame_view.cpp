@@ -3,7 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/frames/header_archive.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <bit>
 #include <utility>

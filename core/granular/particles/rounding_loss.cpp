@@ -2,7 +2,7 @@
 #include "granular/particles/rounding_loss.h"
 
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>

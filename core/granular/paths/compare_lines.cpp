@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/paths/compare_lines.h"
+#include "granular/paths/compare_particles.h"
 
 #include "granular/common/error.h"
 #include "granular/local/id_finder.h"
-#include "granular/parallel/by_rank.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>

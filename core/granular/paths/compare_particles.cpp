@@ -3,7 +3,6 @@
 
 #include "granular/common/error.h"
 #include "granular/local/fetch_particles.h"
-#include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/paths/exchange_frames.h"
+#include "granular/paths/path_frame.h"
 
 #include "granular/common/pass.h"
 #include "granular/common/shares.h"
 #include "granular/frames/header_archive.h"
-#include "granular/parallel/by_rank.h"
-#include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
 #include "granular/sorting/find_ids_at.h"
 

@@ -3,9 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/geometry/reproducible_sum.h"
-#include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
-#include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
 #include "granular/paths/statistics.h"
 

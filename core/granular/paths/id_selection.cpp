@@ -3,7 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/common/words.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,9 +3,8 @@
 
 #include "granular/dump/read/dump_reader.h"
 #include "granular/local/fetch_particles.h"
-#include "granular/local/id_directory.h"
 #include "granular/local/id_finder.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/dump_frame.h"
 #include "granular/particles/point_forms.h"

@@ -4,7 +4,7 @@
 #include "granular/local/id_finder.h"
 #include "granular/local/minimum_image.h"
 #include "granular/particles/point_forms.h"
-#include "granular/paths/exchange_frames.h"
+#include "granular/paths/path_frame.h"
 #include "granular/paths/unwrap.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "granular/common/simd.h"
 #include "granular/particles/point_forms.h"
-#include "granular/paths/exchange_frames.h"
+#include "granular/paths/path_frame.h"
 #include "granular/paths/statistics.h"
 
 #include <algorithm>

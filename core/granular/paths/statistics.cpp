@@ -3,7 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/numbers/number_print.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/sorting/find_ids_at.h"
 
 #include <algorithm>

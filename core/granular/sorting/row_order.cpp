@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/sorting/row_order.h"
+#include "granular/sorting/sort_rows.h"
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,8 @@
 #include "granular/sorting/sort_rows.h"
 
 #include "granular/common/shares.h"
-#include "granular/parallel/gather.h"
 #include "granular/parallel/trade.h"
 #include "granular/sorting/find_ids_at.h"
-#include "granular/sorting/row_order.h"
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>

@@ -2,14 +2,31 @@
 #ifndef granular_sorting_sort_rows_h
 #define granular_sorting_sort_rows_h
 
+#include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/dump_frame.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace granular
 {
+/// An order of rows that can be applied to many blocks.
+class RowOrder
+{
+public:
+  /// Makes the order by id; rows with the same id keep their order. Throws std::bad_alloc.
+  explicit RowOrder(std::span<const std::int64_t> ids);
+
+  /// Brings the rows of a block, width bytes each, into this order. Empty blocks are unchanged. Throws std::bad_alloc.
+  void apply(Block& block, std::size_t width, const Executor& executor) const;
+
+private:
+  Block rows_; ///< std::uint64_t: from where each row comes; empty: they stay
+};
+
 /// Sorts the rows of a frame by id; rows with the same id keep their order. ids holds frame.rows ids, or is empty if
 /// the frame has an array with the role Id. Without either, the order is unchanged and a notice says so.
 void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where,

@@ -4,6 +4,7 @@
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/bytes/compression.h"
+#include "granular/frames/input_files.h"
 
 #include <cstdint>
 #include <set>
@@ -12,6 +13,23 @@
 
 namespace granular
 {
+/// Ways of ranks to write a file together.
+enum class ParallelMode : std::uint8_t
+{
+  Gather, ///< the first rank writes; the others send their rows, one rank after the other, chunk by chunk
+  MpiIo ///< each rank writes its rows in place; Gather for compressed files and ranks without MPI-IO
+};
+
+/// Options of the writing that do not change the bytes.
+struct WriteOptions
+{
+  ParallelMode mode = ParallelMode::Gather;
+  int threads = 1; ///< at least 1, of each rank
+  Durability durable = Durability::Automatic;
+  const InputFiles* inputs =
+    nullptr; ///< files that are read meanwhile, the same on all ranks; null: none
+};
+
 /// Returns true if a name is that of a binary dump: it ends in .bin or .lammpsbin, before an ending for compression.
 bool is_binary_name(std::string_view path) noexcept;
 

@@ -5,7 +5,7 @@
 #include "granular/common/error.h"
 #include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
-#include "granular/writing/write_options.h"
+#include "granular/writing/file_names.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/dump/read/chunk_decoder.h"
+#include "granular/dump/read/frame_decoder.h"
 
 #include "granular/geometry/region.h"
 #include "granular/sorting/text_dictionary.h"

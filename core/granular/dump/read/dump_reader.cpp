@@ -7,7 +7,7 @@
 #include "granular/dump/read/frame_decoder.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/sorting/sort_rows.h"
 
 #include <algorithm>

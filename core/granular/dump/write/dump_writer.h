@@ -7,7 +7,7 @@
 #include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
-#include "granular/writing/write_options.h"
+#include "granular/writing/file_names.h"
 
 #include <cstdint>
 #include <memory>

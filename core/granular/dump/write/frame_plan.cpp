@@ -5,7 +5,7 @@
 #include "granular/dump/write/row_batches.h"
 #include "granular/dump/write/row_values.h"
 #include "granular/frames/header_archive.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/rounding_loss.h"
 
 #include <algorithm>

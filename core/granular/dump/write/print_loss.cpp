@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/dump/write/print_loss.h"
+#include "granular/dump/write/row_batches.h"
 
 #include "granular/geometry/positions.h"
 

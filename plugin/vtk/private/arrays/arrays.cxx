@@ -2,6 +2,7 @@
 #include "private/arrays/arrays.h"
 
 #include "granular/memory/value_range.h"
+#include "granular/numbers/number.h"
 
 #include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
@@ -22,9 +23,14 @@
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkVersion.h"
+#include "vtksys/SystemInformation.hxx"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
 
 namespace vtkGranularPrivate
 {
@@ -302,6 +308,40 @@ vtkMTimeType TimeOf(vtkCellArray* cells)
   return std::max({ cells->GetMTime(), cells->GetOffsetsArray()->GetMTime(),
     cells->GetConnectivityArray()->GetMTime() });
 }
+
+constexpr const char* PoolVariable = "GRANULAR_POOL_MIB";
+
+/**
+ * More than the arrays of a frame that fits in memory together with what is made from it, so that all of
+ * it comes back; and little enough to wait for a next frame. 0 if the system does not say what it has.
+ */
+std::size_t DefaultPoolLimit()
+{
+  vtksys::SystemInformation system;
+  const long long kib = system.GetProcMemoryAvailable();
+  return static_cast<std::size_t>(std::max(kib, 0LL)) / 8 * 1024;
+}
+
+std::size_t PoolLimit(granular::Notices& notices)
+{
+  const char* value = std::getenv(PoolVariable);
+  if (!value || !*value)
+  {
+    return DefaultPoolLimit();
+  }
+  const std::string text = value;
+  std::int64_t mib = -1;
+  if (!granular::parse_int64(text.data(), text.data() + text.size(), mib) || mib < 0)
+  {
+    granular::Notice notice;
+    notice.text = std::string("expected a number of MiB in ") + PoolVariable + ", got '" + text +
+      "'; memory is kept as if it were not set";
+    notices.push_back(notice);
+    return DefaultPoolLimit();
+  }
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() >> 20;
+  return static_cast<std::size_t>(std::min(mib, most)) << 20;
+}
 }
 
 vtkSmartPointer<vtkAbstractArray> TakeArray(
@@ -448,5 +488,11 @@ vtkSmartPointer<vtkCellArray> VertexCache::Get(
     this->Time = TimeOf(this->Cells);
   }
   return this->Cells;
+}
+
+std::shared_ptr<granular::BlockPool> MakePool(granular::Notices& notices)
+{
+  const std::size_t limit = PoolLimit(notices);
+  return limit > 0 ? std::make_shared<granular::BlockPool>(limit) : nullptr;
 }
 }

@@ -3,8 +3,10 @@
 #define vtkGranularArrays_h
 
 #include "granular/columns/column.h"
+#include "granular/common/error.h"
 #include "granular/dump/read/dump_reader.h"
 #include "granular/memory/block.h"
+#include "granular/memory/block_pool.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -116,6 +118,13 @@ private:
   bool OnePerPoint = false;
   vtkMTimeType Time = 0; ///< of Cells when they were made
 };
+
+/**
+ * Returns the memory pool of a reader. The environment variable GRANULAR_POOL_MIB sets how many MiB the pool may keep.
+ * If it is not set, or is not a number, which gives a notice, the limit is an eighth of the memory that the process may
+ * use. Returns null for 0: no pool.
+ */
+std::shared_ptr<granular::BlockPool> MakePool(granular::Notices& notices);
 }
 
 #endif

@@ -6,7 +6,7 @@
 #include "granular/common/error.h"
 #include "granular/common/pass.h"
 #include "granular/common/words.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/particles/absolute_positions.h"
 #include "granular/particles/frame_view.h"
 

@@ -6,7 +6,7 @@
 #include "granular/geometry/region.h"
 #include "granular/memory/block_pool.h"
 #include "granular/parallel/executor.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/paths/id_selection.h"
 
 #include "vtkAlgorithm.h"

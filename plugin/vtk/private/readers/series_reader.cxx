@@ -3,7 +3,7 @@
 
 #include "vtkGranularParticleReader.h"
 
-#include "private/arrays/pool.h"
+#include "private/arrays/arrays.h"
 #include "private/local/lines.h"
 
 #include "granular/common/archive.h"

@@ -2,7 +2,7 @@
 #include "private/writing/writer.h"
 
 #include "granular/common/pass.h"
-#include "granular/parallel/gather.h"
+#include "granular/parallel/trade.h"
 #include "granular/writing/file_names.h"
 
 #include <algorithm>

@@ -11,8 +11,8 @@
 #include "granular/dump/write/dump_writer.h"
 #include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
+#include "granular/writing/file_names.h"
 #include "granular/writing/whole_writer.h"
-#include "granular/writing/write_options.h"
 
 #include "vtkType.h"
 
