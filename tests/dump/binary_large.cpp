@@ -120,17 +120,17 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   const Folder folder;
   SparseFile file(folder.path("large.bin"));
   Frame wide;
-  wide.size_one = 10000;
-  wide.chunks = { std::vector<double>(10000, 1) };
-  const std::int64_t rows = append_large(file, form, wide, { 200000, 20000 });
+  wide.size_one = 5000;
+  wide.chunks = { std::vector<double>(5000, 1) };
+  const std::int64_t rows = append_large(file, form, wide, { 400000, 40000 });
   if (!file.good())
   {
     GTEST_SKIP() << "the file system has no sparse files of this size: " << std::strerror(errno);
   }
-  ASSERT_GT(10000 * rows, std::int64_t{ 1 } << 31);
+  ASSERT_GT(5000 * rows, std::int64_t{ 1 } << 31);
   granular::IndexOptions options = { .format = &granular::dump_format() };
   options.column_names = { "id", "x", "y", "z" };
-  for (int i = 5; i <= 10000; ++i)
+  for (int i = 5; i <= 5000; ++i)
   {
     options.column_names.push_back("c" + std::to_string(i));
   }
