@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularAlgorithm.h"
 
-#include "private/request/piece_request.h"
 #include "private/request/processes.h"
 #include "private/request/request_task.h"
 

@@ -5,7 +5,7 @@
 #include "private/dump/dump_input.h"
 #include "private/local/local_rows.h"
 #include "private/paths/compared_frames.h"
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 #include "private/request/request_task.h"
 
 #include "granular/euler/grain_values.h"

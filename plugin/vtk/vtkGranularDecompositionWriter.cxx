@@ -2,7 +2,7 @@
 #include "vtkGranularDecompositionWriter.h"
 
 #include "private/decomposition/voxels.h"
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 #include "private/writing/writer.h"
 
 #include "granular/decomposition/decomposition_text.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDumpWriter.h"
 
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 #include "private/writing/writer.h"
 
 #include "vtkObjectFactory.h"

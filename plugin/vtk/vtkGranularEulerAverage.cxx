@@ -6,7 +6,7 @@
 #include "private/euler/average_task.h"
 #include "private/euler/euler_cells.h"
 #include "private/request/guard.h"
-#include "private/request/piece_request.h"
+#include "private/request/request_task.h"
 #include "private/request/processes.h"
 
 #include "granular/contacts/contact_cells.h"

@@ -3,7 +3,7 @@
 
 #include "private/euler/euler_cells.h"
 #include "private/readers/series_reader.h"
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 
 #include "granular/euler/euler_file.h"
 #include "granular/euler/regular_grids.h"

@@ -2,7 +2,7 @@
 #include "vtkGranularEulerWriter.h"
 
 #include "private/dump/dump_input.h"
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 #include "private/writing/writer.h"
 
 #include "granular/common/error.h"

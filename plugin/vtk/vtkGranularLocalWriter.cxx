@@ -4,7 +4,7 @@
 #include "private/dump/dump_input.h"
 #include "private/local/lines.h"
 #include "private/local/local_rows.h"
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 #include "private/writing/writer.h"
 
 #include "granular/common/error.h"

@@ -3,8 +3,8 @@
 
 #include "private/euler/average_task.h"
 #include "private/euler/euler_cells.h"
-#include "private/request/errors.h"
-#include "private/request/piece_request.h"
+#include "private/request/guard.h"
+#include "private/request/request_task.h"
 
 #include "granular/contacts/point_average.h"
 

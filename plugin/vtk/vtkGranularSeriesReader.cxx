@@ -3,7 +3,7 @@
 
 #include "private/readers/series_reader.h"
 #include "private/request/guard.h"
-#include "private/request/piece_request.h"
+#include "private/request/request_task.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"

@@ -3,7 +3,6 @@
 
 #include "granular/common/error.h"
 #include "granular/contacts/find_ends.h"
-#include "granular/contacts/rattlers.h"
 #include "granular/contacts/sum_ends.h"
 #include "granular/geometry/symmetric_tensor.h"
 #include "granular/grid/sphere_box.h"

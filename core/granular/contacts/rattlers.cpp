@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/contacts/rattlers.h"
+#include "granular/contacts/find_ends.h"
 
 #include "granular/parallel/trade.h"
 

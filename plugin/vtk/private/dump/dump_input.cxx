@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "private/dump/dump_input.h"
 
-#include "private/request/errors.h"
+#include "private/request/guard.h"
 
 #include "granular/common/error.h"
 #include "granular/common/pass.h"

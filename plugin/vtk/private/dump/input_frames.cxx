@@ -2,7 +2,7 @@
 #include "private/dump/input_frames.h"
 
 #include "private/request/guard.h"
-#include "private/request/piece_request.h"
+#include "private/request/request_task.h"
 
 #include "granular/common/error.h"
 #include "granular/common/progress.h"

@@ -2,7 +2,7 @@
 #include "private/euler/euler_cells.h"
 
 #include "private/arrays/arrays.h"
-#include "private/request/piece_request.h"
+#include "private/request/request_task.h"
 
 #include "granular/common/error.h"
 

@@ -7,7 +7,7 @@
 #include "private/arrays/array_choice.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_output.h"
-#include "private/request/piece_request.h"
+#include "private/request/request_task.h"
 #include "private/request/processes.h"
 
 #include "granular/common/progress.h"
