@@ -6,8 +6,8 @@
 #include "private/euler/average_task.h"
 #include "private/euler/euler_cells.h"
 #include "private/request/guard.h"
-#include "private/request/request_task.h"
 #include "private/request/processes.h"
+#include "private/request/request_task.h"
 
 #include "granular/contacts/contact_cells.h"
 #include "granular/euler/average.h"

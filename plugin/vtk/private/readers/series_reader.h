@@ -7,8 +7,8 @@
 #include "private/arrays/array_choice.h"
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_output.h"
-#include "private/request/request_task.h"
 #include "private/request/processes.h"
+#include "private/request/request_task.h"
 
 #include "granular/common/progress.h"
 #include "granular/memory/block_pool.h"
