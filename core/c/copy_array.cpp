@@ -9,45 +9,29 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
 namespace granular_c
 {
 using namespace granular;
+using namespace std::string_literals;
 
 namespace
 {
-/// Calls with a null pointer to the C++ type of a type of numbers.
+/// Calls use with a number of the C++ type of a type of numbers, in the order of ValueType; words are indices.
 template <class Use>
-void with_type(ValueType type, Use&& use)
+void with_type(ValueType type, const Use& use)
 {
-  switch (type)
-  {
-    case ValueType::Int8:
-      return use(static_cast<std::int8_t*>(nullptr));
-    case ValueType::UInt8:
-      return use(static_cast<std::uint8_t*>(nullptr));
-    case ValueType::Int16:
-      return use(static_cast<std::int16_t*>(nullptr));
-    case ValueType::UInt16:
-      return use(static_cast<std::uint16_t*>(nullptr));
-    case ValueType::Int32:
-    case ValueType::Text:
-      return use(static_cast<std::int32_t*>(nullptr));
-    case ValueType::UInt32:
-      return use(static_cast<std::uint32_t*>(nullptr));
-    case ValueType::Int64:
-      return use(static_cast<std::int64_t*>(nullptr));
-    case ValueType::UInt64:
-      return use(static_cast<std::uint64_t*>(nullptr));
-    case ValueType::Float32:
-      return use(static_cast<float*>(nullptr));
-    case ValueType::Float64:
-      return use(static_cast<double*>(nullptr));
-    default:
-      throw ArgumentError("expected a type of granular_type");
-  }
+  constexpr std::tuple<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+    std::uint32_t, std::int64_t, std::uint64_t, float, double, std::int32_t>
+    numbers = {};
+  auto left = static_cast<int>(type);
+  std::apply([&](auto... number)
+    { static_cast<void>((... || (left-- == 0 && (use(number), true)))); },
+    numbers);
 }
 
 /// Returns a number with all its digits.
@@ -97,29 +81,29 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
 {
   const FrameArray& array = find_array(frame, to.array);
   const auto values =
-    static_cast<std::size_t>(frame.rows) * static_cast<std::size_t>(array.components);
+    static_cast<std::size_t>(frame.table.rows) * static_cast<std::size_t>(array.components);
   if (to.values < values || (to.data == nullptr && values > 0))
   {
-    throw ArgumentError("array '" + array.name + "': expected room for " + std::to_string(values) +
+    throw ArgumentError("array '"s + array.name + "': expected room for " + std::to_string(values) +
       " values, got " + std::to_string(to.data == nullptr ? 0 : to.values));
   }
   if (to.type < GRANULAR_INT8 || to.type > GRANULAR_TEXT)
   {
-    throw ArgumentError("array '" + array.name + "': expected a type of granular_type, got " +
+    throw ArgumentError("array '"s + array.name + "': expected a type of granular_type, got " +
       std::to_string(to.type));
   }
   if (array.type == ValueType::Text && to.type != GRANULAR_TEXT)
   {
-    throw ArgumentError("array '" + array.name + "': expected the type GRANULAR_TEXT for words");
+    throw ArgumentError("array '"s + array.name + "': expected the type GRANULAR_TEXT for words");
   }
   with_type(static_cast<ValueType>(to.type),
-    [&](auto* target_type)
+    [&](auto made)
     {
       with_type(array.type,
-        [&](auto* source_type)
+        [&](auto given)
         {
-          using To = std::remove_pointer_t<decltype(target_type)>;
-          using From = std::remove_pointer_t<decltype(source_type)>;
+          using To = decltype(made);
+          using From = decltype(given);
           const auto* const from = static_cast<const From*>(array.data);
           auto* const target = static_cast<char*>(to.data); // at any address
           for (std::size_t i = 0; i < values; ++i)
@@ -127,7 +111,7 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
             const std::optional<To> value = convert<To>(from[i]);
             if (!value)
             {
-              throw ArgumentError("array '" + array.name + "', value " + std::to_string(i) +
+              throw ArgumentError("array '"s + array.name + "', value " + std::to_string(i) +
                 ": expected a number of the wanted type, got " + digits_of(from[i]));
             }
             std::memcpy(target + i * sizeof(To), &*value, sizeof(To));

@@ -14,12 +14,6 @@
 #include <set>
 #include <utility>
 
-const granular_c::FrameArray* granular_frame::find(std::string_view name) const noexcept
-{
-  const auto found = std::ranges::find(arrays, name, &granular_c::FrameArray::name);
-  return found == arrays.end() ? nullptr : &*found;
-}
-
 namespace granular_c
 {
 using namespace granular;
@@ -105,13 +99,9 @@ void add_ends(FrameView& view, const ArrayView& ends)
   }
 }
 
-void take_header(granular_frame& frame, DumpFrame& rows)
+/// Returns the columns of the file that were read: a writer would make up the others.
+std::vector<std::string> columns_read(const DumpFrame& rows)
 {
-  frame.header = std::move(rows.header);
-  frame.coordinates = rows.coordinates;
-  frame.rows = rows.rows;
-  frame.columns.clear();
-  // those that were read: a writer would make up the others
   std::set<int> read;
   const auto add = [&](const ArrayInfo& array)
   {
@@ -126,56 +116,24 @@ void take_header(granular_frame& frame, DumpFrame& rows)
       add(array);
     }
   }
+  std::vector<std::string> columns;
   for (const int column : read)
   {
-    frame.columns.push_back(rows.schema.columns()[static_cast<std::size_t>(column)].name);
+    columns.push_back(rows.schema.columns()[static_cast<std::size_t>(column)].name);
   }
-  frame.column_text = rows.schema.text();
+  return columns;
 }
-}
-
-void take_table(granular_frame& frame, LocalFrame&& table, std::span<const KnownColumn> columns)
-{
-  if (table.has_lines && table.lines.rows.empty())
-  {
-    add_array(frame, ends_name, ValueType::Float64, 6, std::move(table.lines.points),
-      find_known("x1", columns));
-    add_array(frame, "length", ValueType::Float64, 1, std::move(table.lines.lengths),
-      find_known("length", columns));
-  }
-  DumpFrame& rows = table.table;
-  take_header(frame, rows);
-  if (rows.points.data() != nullptr)
-  {
-    const std::size_t values = 3 * static_cast<std::size_t>(rows.rows);
-    const bool single = values > 0 && rows.points.bytes() == values * sizeof(float);
-    add_array(frame, points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
-      std::move(rows.points), find_known("x", columns));
-  }
-  for (DumpArray& array : rows.arrays)
-  {
-    add_array(frame, array.info.name, array.info.type, array.info.components(),
-      std::move(array.block), find_known(array.info.name, columns));
-    frame.arrays.back().words = std::move(array.words);
-  }
-  for (FrameArray& array : frame.arrays)
-  {
-    for (const std::string& word : array.words)
-    {
-      array.word_list.push_back(word.c_str());
-    }
-  }
 }
 
 const FrameArray& find_array(const granular_frame& frame, std::string_view name)
 {
-  const FrameArray* const found = frame.find(name);
-  if (found != nullptr)
+  const auto found = std::ranges::find(frame.arrays, name, &FrameArray::name);
+  if (found == frame.arrays.end())
   {
-    return *found;
+    throw ArgumentError("expected an array of " +
+      join_words(frame.arrays, ", ", &FrameArray::name) + ", got '" + std::string(name) + "'");
   }
-  throw ArgumentError("expected an array of " + join_words(frame.arrays, ", ", &FrameArray::name) +
-    ", got '" + std::string(name) + "'");
+  return *found;
 }
 
 Box make_box(const granular_box& box)
@@ -224,12 +182,12 @@ granular_box box_of(const FrameHeader& header)
 
 WriteView::WriteView(const granular_frame& frame)
 {
-  view.header = frame.header;
-  view.has_box = frame.header.has_box;
-  view.rows = frame.rows;
-  view.coordinates = frame.coordinates;
+  view.header = frame.table.header;
+  view.has_box = frame.table.header.has_box;
+  view.rows = frame.table.rows;
+  view.coordinates = frame.table.coordinates;
   view.point_origin = frame.origin;
-  view.columns = frame.columns;
+  view.columns = columns_read(frame.table);
   for (const FrameArray& array : frame.arrays)
   {
     this->add(array.name, array.type, array.components, array.data, array.word_list);
@@ -342,4 +300,35 @@ void WriteView::add(std::string name, ValueType type, int components, const void
     view.arrays.push_back(std::move(array));
   }
 }
+}
+
+using namespace granular;
+
+granular_frame::granular_frame(
+  granular_c::RowKind rows_kind, LocalFrame&& taken, std::span<const KnownColumn> known)
+  : kind(rows_kind)
+  , read(std::move(taken))
+  , column_text(table.schema.text())
+{
+  if (read.has_lines)
+  {
+    arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, read.lines.points.data(),
+      find_known("x1", known) });
+    arrays.push_back(
+      { "length", ValueType::Float64, 1, read.lines.lengths.data(), find_known("length", known) });
+  }
+  if (table.points.data() != nullptr)
+  {
+    const std::size_t values = 3 * static_cast<std::size_t>(table.rows);
+    const bool single = values > 0 && table.points.bytes() == values * sizeof(float);
+    arrays.push_back({ granular_c::points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
+      table.points.data(), find_known("x", known) });
+  }
+  for (const DumpArray& array : table.arrays)
+  {
+    arrays.push_back({ array.info.name.c_str(), array.info.type, array.info.components(),
+      array.block.data(), find_known(array.info.name, known) });
+    std::ranges::transform(
+      array.words, std::back_inserter(arrays.back().word_list), &std::string::c_str);
+  }
 }

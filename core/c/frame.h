@@ -15,23 +15,19 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace granular_c
 {
-/// An array of a frame that was read.
+/// An array of a frame that was read, in the memory of its table.
 struct FrameArray
 {
-  std::string name;
-  granular::ValueType type = granular::ValueType::Float64;
-  int components = 1;
-  const void* data = nullptr;
-  std::shared_ptr<const void> memory;           ///< of data
-  std::vector<std::string> words;               ///< of a Text
-  std::vector<const char*> word_list;           ///< the same
-  const granular::KnownColumn* known = nullptr; ///< its unit and meaning; null: not known
+  const char* name;
+  granular::ValueType type;
+  int components;
+  const void* data;
+  const granular::KnownColumn* known;      ///< its unit and meaning; null: not known
+  std::vector<const char*> word_list = {}; ///< of a Text
 };
 
 using granular::RowKind;
@@ -40,18 +36,20 @@ using granular::RowKind;
 /// A frame that was read. Arrays do not move: strings and pointers to them are given away.
 struct granular_frame
 {
-  granular_c::RowKind kind = granular_c::RowKind::Particles;
-  granular::FrameHeader header;
-  granular::Coordinates coordinates = granular::Coordinates::Absolute;
+  /// Takes a table that was read, whose units `known` knows.
+  granular_frame(granular_c::RowKind rows_kind, granular::LocalFrame&& read,
+    std::span<const granular::KnownColumn> known);
+  granular_frame(const granular_frame&) = delete;
+  granular_frame& operator=(const granular_frame&) = delete;
+
+  const granular_c::RowKind kind;
+  const granular::LocalFrame read;
+  const granular::DumpFrame& table = read.table;
   granular::Vector3 origin = {};
-  double time = 0; ///< of the run
-  std::int64_t rows = 0;
-  std::vector<std::string> columns; ///< of the file
-  std::string column_text;          ///< the same, separated by blanks
+  double time = 0;               ///< of the run
+  const std::string column_text; ///< of the file, separated by blanks
   std::vector<granular_c::FrameArray> arrays;
   std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from
-
-  const granular_c::FrameArray* find(std::string_view name) const noexcept;
 };
 
 namespace granular_c
@@ -65,21 +63,6 @@ inline std::string text_of(const char* text)
 {
   return text == nullptr ? std::string() : std::string(text);
 }
-
-/// Adds an array whose memory it takes: a block or a vector.
-template <class Values>
-void add_array(granular_frame& frame, std::string name, granular::ValueType type, int components,
-  Values&& values, const granular::KnownColumn* known = nullptr)
-{
-  auto memory = std::make_shared<std::remove_cvref_t<Values>>(std::forward<Values>(values));
-  const void* const data = memory->data();
-  frame.arrays.push_back(
-    { std::move(name), type, components, data, std::move(memory), {}, {}, known });
-}
-
-/// Takes a table that was read, whose units `columns` knows.
-void take_table(granular_frame& frame, granular::LocalFrame&& table,
-  std::span<const granular::KnownColumn> columns);
 
 /// Returns an array by its name. Throws granular::ArgumentError that lists those there are.
 const FrameArray& find_array(const granular_frame& frame, std::string_view name);

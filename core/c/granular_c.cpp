@@ -11,7 +11,7 @@ namespace
 {
 granular_array array_of(const granular_frame& frame, const FrameArray& array)
 {
-  return { array.name.c_str(), static_cast<granular_type>(array.type), array.components, frame.rows,
+  return { array.name, static_cast<granular_type>(array.type), array.components, frame.table.rows,
     array.data, array.word_list.empty() ? nullptr : array.word_list.data(), array.word_list.size(),
     array.known == nullptr ? "" : array.known->unit.data(),
     array.known == nullptr ? "" : array.known->meaning.data() };
@@ -191,7 +191,7 @@ extern "C"
           run->read(run->number_of(frame), wanted, caller);
         if (rows != nullptr)
         {
-          *rows = read->rows;
+          *rows = read->table.rows;
         }
         for (std::size_t i = 0; i < count; ++i)
         {
@@ -210,15 +210,15 @@ extern "C"
     return guarded(
       [&]
       {
-        const granular::FrameHeader& from = needed(frame, "frame").header;
+        const granular::FrameHeader& from = needed(frame, "frame").table.header;
         granular_frame_header made = {};
         made.timestep = from.timestep;
         made.has_time = from.time ? 1 : 0;
         made.time = from.time ? *from.time : frame->time;
-        made.rows = frame->rows;
+        made.rows = frame->table.rows;
         made.has_box = from.has_box ? 1 : 0;
         made.box = box_of(from);
-        made.coordinates = static_cast<granular_coordinates>(frame->coordinates);
+        made.coordinates = static_cast<granular_coordinates>(frame->table.coordinates);
         std::copy_n(frame->origin.begin(), 3, made.origin);
         made.label = from.label.c_str();
         made.units = from.units.c_str();

@@ -253,14 +253,14 @@ std::unique_ptr<granular_frame> granular_run::read(
   SerialCommunicator alone;
   Notices notices;
   RunFrame read = run_.read(frame, request, this->offer(frame), alone, notices, caller);
-  auto made = std::make_unique<granular_frame>();
-  made->kind = request.bonds ? RowKind::Lines : this->kind().rows;
+  auto made = request.bonds
+    ? std::make_unique<granular_frame>(RowKind::Lines, std::move(read.bonds), local_known_columns())
+    : std::make_unique<granular_frame>(
+        this->kind().rows, std::move(read.rows), this->kind().columns());
   if (made->kind != RowKind::Subdomains) // which are where the file has them
   {
     made->origin = request.point_origin;
   }
-  take_table(*made, std::move(request.bonds ? read.bonds : read.rows),
-    request.bonds ? local_known_columns() : this->kind().columns());
   made->time = times[frame];
   made->index = shared_index;
   caller.tell(notices);

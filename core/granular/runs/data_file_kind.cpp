@@ -51,8 +51,7 @@ RunFrame read_data_frame(const RunPlace& place, const Request& request, const Of
 }
 }
 
-constinit const Kind data_file_kind = { .name = "data_file",
-  .number = 3,
+constinit const Kind data_file_kind = { .number = 3,
   .rows = RowKind::Particles,
   .is_file = is_data_file,
   .format = data_file_format,

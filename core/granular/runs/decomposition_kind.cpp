@@ -89,8 +89,7 @@ std::vector<std::size_t> no_frames(const RunIndex&)
 }
 }
 
-constinit const Kind decomposition_kind = { .name = "decomposition",
-  .number = 5,
+constinit const Kind decomposition_kind = { .number = 5,
   .rows = RowKind::Subdomains,
   .is_file = is_decomposition_file,
   .format = decomposition_format,

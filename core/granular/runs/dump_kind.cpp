@@ -29,8 +29,7 @@ RunFrame read_dump_frame(const RunPlace& place, const Request& request, const Of
 }
 }
 
-constinit const Kind dump_kind = { .name = "dump",
-  .number = 0,
+constinit const Kind dump_kind = { .number = 0,
   .rows = RowKind::Particles,
   .is_file = is_dump_file,
   .format = dump_format,

@@ -92,8 +92,7 @@ std::span<const KnownColumn> columns() noexcept
 }
 }
 
-constinit const Kind euler_kind = { .name = "euler",
-  .number = 4,
+constinit const Kind euler_kind = { .number = 4,
   .rows = RowKind::Cells,
   .is_file = is_euler_file,
   .format = euler_format,

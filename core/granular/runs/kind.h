@@ -33,7 +33,6 @@ struct RunPlace
 /// A kind of files: how they are told from others, and how their frames are read.
 struct Kind
 {
-  std::string_view name;
   int number;   ///< in granular_kind of C
   RowKind rows; ///< of table 0
   bool (*is_file)(const std::string& path) noexcept;
@@ -65,9 +64,6 @@ extern const Kind decomposition_kind;
 
 /// Returns all kinds, in the order in which they are asked whether a file is theirs.
 std::span<const Kind* const> kinds() noexcept;
-
-/// Returns the kind of a name, such as "local". Throws ArgumentError that lists the names.
-const Kind& find_kind(std::string_view name);
 
 /// Returns the kind of a file by its contents; that of dumps, whose error says what was expected, if there is none.
 const Kind& kind_of_file(const std::string& path) noexcept;

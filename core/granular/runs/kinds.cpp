@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/runs/kind.h"
 
-#include "granular/common/words.h"
-
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -14,17 +12,6 @@ std::span<const Kind* const> kinds() noexcept
   static constexpr const Kind* all[] = { &dump_kind, &local_kind, &restart_kind, &data_file_kind,
     &decomposition_kind, &euler_kind };
   return all;
-}
-
-const Kind& find_kind(std::string_view name)
-{
-  const auto found = std::ranges::find(kinds(), name, &Kind::name);
-  if (found == kinds().end())
-  {
-    throw ArgumentError("expected a kind of " + join_words(kinds(), ", ", &Kind::name) + ", got '" +
-      std::string(name) + "'");
-  }
-  return **found;
 }
 
 const Kind& kind_of_file(const std::string& path) noexcept

@@ -86,8 +86,7 @@ RunFrame read_local_frame(const RunPlace& place, const Request& request, const O
 }
 }
 
-constinit const Kind local_kind = { .name = "local",
-  .number = 1,
+constinit const Kind local_kind = { .number = 1,
   .rows = RowKind::Lines,
   .is_file = is_local_file,
   .format = local_format,

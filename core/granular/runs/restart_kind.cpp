@@ -66,8 +66,7 @@ RunFrame read_restart_frame(const RunPlace& place, const Request& request, const
 }
 }
 
-constinit const Kind restart_kind = { .name = "restart",
-  .number = 2,
+constinit const Kind restart_kind = { .number = 2,
   .rows = RowKind::Particles,
   .is_file = is_restart_file,
   .format = restart_format,
