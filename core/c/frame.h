@@ -10,7 +10,6 @@
 #include "granular/particles/frame_view.h"
 #include "granular/runs/table.h"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>

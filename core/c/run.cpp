@@ -7,9 +7,7 @@
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 
-#include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 namespace granular_c

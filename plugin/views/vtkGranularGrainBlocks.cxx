@@ -119,16 +119,6 @@ vtkBoundingBox CentreBounds(vtkDataObject* data)
 
 vtkStandardNewMacro(vtkGranularGrainBlocks);
 
-vtkGranularGrainBlocks::vtkGranularGrainBlocks() = default;
-vtkGranularGrainBlocks::~vtkGranularGrainBlocks() = default;
-
-void vtkGranularGrainBlocks::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Every: " << this->Every << "\n";
-  os << indent << "ShapeSizes: " << this->ShapeSizes << "\n";
-}
-
 bool vtkGranularGrainBlocks::AreScaled(vtkFieldData* fields)
 {
   vtkAbstractArray* kind = fields ? fields->GetAbstractArray("Coordinates") : nullptr;
@@ -312,7 +302,6 @@ void vtkGranularGrainBlocks::DrawBlocks(vtkRenderer* renderer, vtkActor* actor, 
   }
   for (const auto& block : this->ChooseBlocks())
   {
-    block->SetShapeSizes(this->ShapeSizes);
     if (selector && selector->GetCurrentPass() == vtkHardwareSelector::COMPOSITE_INDEX_PASS)
     {
       selector->RenderCompositeIndex(block->GetFlatIndex());

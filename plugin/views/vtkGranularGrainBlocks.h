@@ -26,7 +26,6 @@ class vtkGranularGrainBlocks : public vtkOpenGLPointGaussianMapper
 public:
   static vtkGranularGrainBlocks* New();
   vtkTypeMacro(vtkGranularGrainBlocks, vtkOpenGLPointGaussianMapper);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   using Place = vtkGranularPlaceInView::Place;
 
@@ -81,8 +80,8 @@ public:
   const Place& GetDotsFrom() { return this->From; }
 
 protected:
-  vtkGranularGrainBlocks();
-  ~vtkGranularGrainBlocks() override;
+  vtkGranularGrainBlocks() = default;
+  ~vtkGranularGrainBlocks() override = default;
 
 private:
   vtkGranularGrainBlocks(const vtkGranularGrainBlocks&) = delete;

@@ -2,6 +2,7 @@
 #include "vtkGranularGrainMapper.h"
 
 #include "vtkFloatArray.h"
+#include "vtkGranularGrainBlocks.h"
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
 #include "vtkGranularGrainShapes.h"
@@ -21,7 +22,6 @@
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
-#include "vtkPointGaussianMapper.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
@@ -154,18 +154,6 @@ struct View
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
 
-vtkGranularGrainMapper::vtkGranularGrainMapper() = default;
-vtkGranularGrainMapper::~vtkGranularGrainMapper() = default;
-
-void vtkGranularGrainMapper::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "FlatIndex: " << this->FlatIndex << "\n";
-  os << indent << "Growth: " << this->Growth << "\n";
-  os << indent << "HaveShapes: " << this->HaveShapes << "\n";
-  os << indent << "ShapeSizes: " << this->ShapeSizes << "\n";
-}
-
 // Returns the coordinates of the points, all or those that are seen.
 vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(
   const Counting& counting, vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen)
@@ -209,7 +197,7 @@ vtkGranularGrainMapper::Counting vtkGranularGrainMapper::ChooseCounting(
 }
 
 void vtkGranularGrainMapper::Draw(
-  vtkRenderer* renderer, vtkActor* actor, vtkPointGaussianMapper* owner, const Place& from)
+  vtkRenderer* renderer, vtkActor* actor, vtkGranularGrainBlocks* owner, const Place& from)
 {
   if (this->CopyTime < owner->GetMTime())
   {
@@ -479,7 +467,7 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
 // Loads the shapes, if there are any; the radii become those of spheres around them.
 void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
 {
-  const vtkGranularGrainShapes shapes(this->CurrentInput, this->ShapeSizes);
+  const vtkGranularGrainShapes shapes(this->CurrentInput, this->Owner->GetShapeSizes());
   if (this->HaveShapes != shapes.Any())
   {
     this->HaveShapes = shapes.Any();

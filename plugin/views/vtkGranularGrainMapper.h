@@ -27,31 +27,22 @@
 
 class vtkDataArray;
 class vtkFloatArray;
-class vtkPointGaussianMapper;
+class vtkGranularGrainBlocks;
 
 class vtkGranularGrainMapper : public vtkOpenGLSphereMapper
 {
 public:
   static vtkGranularGrainMapper* New();
   vtkTypeMacro(vtkGranularGrainMapper, vtkOpenGLSphereMapper);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   using Place = std::array<double, 3>;
 
   /**
-   * Draws the input with the radii, colours and opacities that another mapper tells. Coordinates are counted from a place before they
-   * become floats.
+   * Draws the input with the radii, shapes, colours and opacities that another mapper tells. Coordinates are counted from a place before
+   * they become floats.
    */
   void Draw(
-    vtkRenderer* renderer, vtkActor* actor, vtkPointGaussianMapper* owner, const Place& from);
-
-  ///@{
-  /**
-   * Meaning of the sizes of shapes: see vtkGranularGrainShapes.
-   */
-  vtkSetMacro(ShapeSizes, int);
-  vtkGetMacro(ShapeSizes, int);
-  ///@}
+    vtkRenderer* renderer, vtkActor* actor, vtkGranularGrainBlocks* owner, const Place& from);
 
   ///@{
   /**
@@ -70,8 +61,8 @@ public:
   ///@}
 
 protected:
-  vtkGranularGrainMapper();
-  ~vtkGranularGrainMapper() override;
+  vtkGranularGrainMapper() = default;
+  ~vtkGranularGrainMapper() override = default;
 
   void GetShaderTemplate(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer, vtkActor* actor) override;
@@ -113,9 +104,8 @@ private:
   bool FindSeen(vtkRenderer* renderer, vtkActor* actor);
 
   unsigned int FlatIndex = 1;
-  int ShapeSizes = 0;
   double Growth = 1.0;
-  vtkPointGaussianMapper* Owner = nullptr; // while it draws
+  vtkGranularGrainBlocks* Owner = nullptr; // while it draws
   Place From{};                            // of the next picture
   Place Built{};                           // of the values
   Counting Counted;                        // of the buffers

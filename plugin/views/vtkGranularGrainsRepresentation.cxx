@@ -256,11 +256,6 @@ void vtkGranularGrainsRepresentation::SetSpecular(double brightness)
   this->Actor->GetProperty()->SetSpecular(brightness);
 }
 
-void vtkGranularGrainsRepresentation::SetSpecularPower(double sharpness)
-{
-  this->Actor->GetProperty()->SetSpecularPower(sharpness);
-}
-
 bool vtkGranularGrainsRepresentation::IsTranslucent()
 {
   if (this->Actor->GetProperty()->GetOpacity() < 1.0 || this->Mapper->GetOpacityArray())

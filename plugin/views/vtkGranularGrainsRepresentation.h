@@ -74,7 +74,6 @@ public:
   void SetAmbient(double part);
   void SetDiffuse(double part);
   void SetSpecular(double brightness);
-  void SetSpecularPower(double sharpness);
   ///@}
 
 protected:

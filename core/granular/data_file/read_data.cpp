@@ -18,7 +18,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>

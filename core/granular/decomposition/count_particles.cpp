@@ -9,8 +9,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>

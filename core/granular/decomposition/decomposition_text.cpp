@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/decomposition_text.h"
 
-#include "granular/common/error.h"
 #include "granular/decomposition/process_grid.h"
 #include "granular/decomposition/voxels.h"
 #include "granular/numbers/number_print.h"
@@ -12,8 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include "granular/common/words.h"
 #include "granular/numbers/number.h"
-#include "granular/vtk_files/vtk_xml.h"
 
 #include <iterator>
 #include <limits>

@@ -7,9 +7,7 @@
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
-#include <span>
 #include <string>
 
 namespace granular

@@ -7,7 +7,6 @@
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/sorting/block_rows.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -3,7 +3,6 @@
 
 #include "granular/euler/cells.h"
 #include "granular/grid/euler_grid.h"
-#include "granular/vtk_files/vtk_grid.h"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,6 @@
 #include "granular/geometry/expansion.h"
 #include "granular/numbers/number_print.h"
 
-#include <array>
 #include <cstddef>
 #include <numbers>
 

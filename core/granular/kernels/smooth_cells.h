@@ -8,7 +8,6 @@
 #include "granular/grid/periodic_images.h"
 #include "granular/kernels/kernel.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

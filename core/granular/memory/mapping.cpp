@@ -2,7 +2,6 @@
 #include "granular/memory/mapping.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <exception>
 #include <fstream>
 #include <limits>

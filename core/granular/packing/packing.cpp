@@ -4,10 +4,8 @@
 #include "granular/packing/packing_plan.h"
 #include "granular/packing/random_numbers.h"
 #include "granular/parallel/executor.h"
-#include "granular/particles/dump_frame.h"
 
 #include <algorithm>
-#include <string>
 #include <string_view>
 #include <vector>
 

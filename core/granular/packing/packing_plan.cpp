@@ -5,7 +5,6 @@
 #include "granular/common/shares.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>

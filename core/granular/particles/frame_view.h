@@ -7,7 +7,6 @@
 #include "granular/geometry/positions.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

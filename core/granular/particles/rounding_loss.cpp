@@ -5,7 +5,6 @@
 #include "granular/parallel/trade.h"
 #include "granular/particles/point_forms.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace granular

@@ -5,8 +5,6 @@
 #include "granular/dump/formats/dump_files.h"
 #include "granular/dump/read/dump_reader.h"
 
-#include <utility>
-
 namespace granular
 {
 namespace

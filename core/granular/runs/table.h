@@ -8,7 +8,6 @@
 #include "granular/local/local_reader.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>

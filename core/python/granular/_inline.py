@@ -6,7 +6,7 @@ import base64
 import mmap
 import os
 import re
-from typing import IO, Callable
+from typing import IO
 
 # A name with '>' matches none of these: VTK finds no inline data behind it, and its file stays as it is.
 _ARRAY = re.compile(rb'<((?:Data)?Array) ([^>]*?)format="appended"([^>]*?) *offset="(\d+)" *(/?)>')
@@ -14,7 +14,7 @@ _PART = 3 << 20  # bytes that become base64 at a time: a multiple of 3
 
 
 def put_inline(path: str) -> None:
-    """Moves the appended data of a VTK file into its arrays, as base64. Other files stay as they are.
+    """Moves the raw appended data of a VTK file into its arrays, as base64. Other files stay as they are.
 
     Appended data are no XML: some versions of libexpat refuse them, raw and base64 alike. VTK writes inline data itself, but ends the
     program when a disk is full then.
@@ -23,43 +23,18 @@ def put_inline(path: str) -> None:
         if not os.path.getsize(path):
             return
         with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as old:
-            end = old.find(b"<AppendedData encoding=")
+            end = old.find(b'<AppendedData encoding="raw"')
             head = old[:max(end, 0)]
             arrays = list(_ARRAY.finditer(head))
             if not arrays or head.count(b'format="appended"') != len(arrays):
                 return
-            raw = b'<AppendedData encoding="raw"'
-            write = _write_raw if old[end:end + len(raw)] == raw else _write_encoded
             with open(path + ".inline", "wb") as new:
-                write(old, head, old.find(b"_", end) + 1, arrays, new)
+                _write(old, head, old.find(b"_", end) + 1, arrays, new)
     os.replace(path + ".inline", path)
 
 
-def _put(head: bytes, arrays: list[re.Match[bytes]], new: IO[bytes], put: Callable[[int], None]) -> None:
+def _write(old: mmap.mmap, head: bytes, data: int, arrays: list[re.Match[bytes]], new: IO[bytes]) -> None:
     """Writes the head with the data of each array in its place."""
-    done = 0
-    for array in arrays:
-        kind, before, behind, offset, is_empty = array.groups()
-        new.write(head[done:array.start()] + b"<" + kind + b" " + before + b'format="binary"' + behind + b">\n")
-        put(int(offset))
-        new.write(b"\n" + (b"</" + kind + b">" if is_empty else b""))
-        done = array.end()
-    new.write(head[done:].rstrip() + b"\n</VTKFile>\n")
-
-
-def _write_encoded(old: mmap.mmap, head: bytes, data: int, arrays: list[re.Match[bytes]], new: IO[bytes]) -> None:
-    """Appended base64 has the form of inline base64; only the ends of the arrays are not told."""
-    ends = sorted({int(array.group(4)) for array in arrays} | {old.find(b"<", data) - data})
-
-    def put(offset: int) -> None:
-        first, last = data + offset, data + ends[ends.index(offset) + 1]
-        for at in range(first, last, _PART):
-            new.write(old[at:min(at + _PART, last)].rstrip())
-
-    _put(head, arrays, new, put)
-
-
-def _write_raw(old: mmap.mmap, head: bytes, data: int, arrays: list[re.Match[bytes]], new: IO[bytes]) -> None:
     order = "big" if b'byte_order="BigEndian"' in head else "little"
     width = 8 if b'header_type="UInt64"' in head else 4
     is_compressed = b' compressor="' in head
@@ -71,8 +46,11 @@ def _write_raw(old: mmap.mmap, head: bytes, data: int, arrays: list[re.Match[byt
     def number(at: int) -> int:
         return int.from_bytes(old[at:at + width], order)  # type: ignore[arg-type]
 
-    def put(offset: int) -> None:
-        at = data + offset
+    done = 0
+    for array in arrays:
+        kind, before, behind, offset, is_empty = array.groups()
+        new.write(head[done:array.start()] + b"<" + kind + b" " + before + b'format="binary"' + behind + b">\n")
+        at = data + int(offset)
         if is_compressed:  # a header of its own: blocks, their sizes, and the bytes of each
             blocks = number(at)
             first = at + (3 + blocks) * width
@@ -80,5 +58,6 @@ def _write_raw(old: mmap.mmap, head: bytes, data: int, arrays: list[re.Match[byt
             encode(first, first + sum(number(at + (3 + block) * width) for block in range(blocks)))
         else:
             encode(at, at + width + number(at))
-
-    _put(head, arrays, new, put)
+        new.write(b"\n" + (b"</" + kind + b">" if is_empty else b""))
+        done = array.end()
+    new.write(head[done:].rstrip() + b"\n</VTKFile>\n")

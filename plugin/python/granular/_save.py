@@ -200,6 +200,8 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
             properties = {"DataMode": "Binary", **properties}
         simple.SaveData(path, output, **properties)
         return
+    if "DataMode" not in properties:
+        properties = {name: value for name, value in properties.items() if name != "EncodeAppendedData"}  # inline data are always encoded
     inputs = _inputs(output, ours=True)
     errors: list[str] = []
 

@@ -129,6 +129,8 @@ def _write_vtk(frame: Any, path: str, ending: str) -> None:
         except ImportError as error:
             raise ImportError(f".vtkhdf needs VTK 9.4 or later: {error}") from error
         writer = vtkHDFWriter()
+    if ending != ".vtkhdf":
+        writer.EncodeAppendedDataOff()
     writer.SetFileName(path)
     writer.SetInputData(data)
     if not writer.Write():

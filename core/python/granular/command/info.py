@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections import Counter
 from typing import Any
 
 from .._library import shown
@@ -75,8 +76,7 @@ def oddities(steps: Any, rows: Any) -> list[str]:
         return ["there are no frames"]
     gaps = steps[1:] - steps[:-1]
     if len(gaps) > 1 and (gaps != gaps[0]).any():
-        values, counts = unique(gaps.tolist())
-        usual = values[counts.index(max(counts))]
+        usual = Counter(gaps.tolist()).most_common(1)[0][0]
         odd = [i for i, gap in enumerate(gaps) if gap != usual]
         found.append(f"{len(odd)} of {len(gaps)} frames do not follow the one before after {usual} steps; the first: "
                      f"{steps[odd[0]]} to {steps[odd[0] + 1]}")
@@ -84,14 +84,6 @@ def oddities(steps: Any, rows: Any) -> list[str]:
     if empty:
         found.append(f"{empty} of {len(rows)} frames are empty; the first: step {steps[(rows == 0).argmax()]}")
     return found
-
-
-def unique(values: list[int]) -> tuple[list[int], list[int]]:
-    """Returns the different values and how often each occurs."""
-    from collections import Counter
-
-    counted = Counter(values)
-    return list(counted), list(counted.values())
 
 
 def span(values: list[Any], form: str = "") -> str:
