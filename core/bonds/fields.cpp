@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "packing.h"
 
-#include "id_numbers.h"
-
 #include "granular/numbers/number_print.h"
 #include "granular/restart/bond_record.h"
 
-#include <bit>
 #include <cstring>
 
 namespace granular

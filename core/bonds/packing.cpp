@@ -2,8 +2,6 @@
 #include "packing.h"
 
 #include "granular/numbers/number_print.h"
-#include "id_numbers.h"
-
 #include <algorithm>
 #include <array>
 

@@ -2,13 +2,10 @@
 // The record of a particle in a restart file; see RecordSlots. The sign of a bond's type is kept, although the programs lose it.
 #include "packing.h"
 
-#include "id_numbers.h"
-
 #include "granular/numbers/number_print.h"
 #include "granular/restart/bond_record.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace granular
 {

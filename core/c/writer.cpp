@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "writer.h"
 
+#include "granular/common/words.h"
 #include "granular/decomposition/decomposition_text.h"
 #include "granular/dump/write/dump_writer.h"
 #include "granular/euler/euler_text.h"
@@ -10,7 +11,7 @@
 #include "granular/writing/whole_writer.h"
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -21,12 +22,12 @@ using namespace granular;
 
 namespace
 {
-/// A choice of words; an empty one and "Automatic" are none.
-template <class Value, std::size_t N>
-std::optional<Value> choose(
-  const char* what, const char* given, const std::array<std::pair<const char*, Value>, N>& choices)
+/// Returns a dialect by its name; an empty one and "Automatic" are none.
+template <class Value>
+std::optional<Value> choose_dialect(
+  const granular_format& format, std::initializer_list<std::pair<const char*, Value>> choices)
 {
-  const std::string word = text_of(given);
+  const std::string word = text_of(format.dialect);
   if (word.empty() || word == "Automatic")
   {
     return std::nullopt;
@@ -40,7 +41,7 @@ std::optional<Value> choose(
     }
     list += std::string(", ") + name;
   }
-  throw ArgumentError(std::string("expected a ") + what + " of " + list + ", got '" + word + "'");
+  throw ArgumentError("expected a dialect of " + list + ", got '" + word + "'");
 }
 
 /// As granular_format has it.
@@ -143,12 +144,10 @@ Writer blank_writer(RowKind kind, const std::string& path, const granular_format
 
 DumpFormat rows_format(const std::string& path, DumpStyle style, const granular_format& given)
 {
-  constexpr std::array<std::pair<const char*, Dialect>, 2> dialects = {
-    { { "LIGGGHTS", Dialect::Liggghts }, { "LAMMPS", Dialect::Lammps } }
-  };
   DumpFormat format = format_of_name(path, text_of(given.columns), text_of(given.numbers));
   format.style = style;
-  format.dialect = choose("dialect", given.dialect, dialects);
+  format.dialect = choose_dialect<Dialect>(
+    given, { { "LIGGGHTS", Dialect::Liggghts }, { "LAMMPS", Dialect::Lammps } });
   format.atom = { given.scaled != 0, given.image != 0 };
   const std::string label = text_of(given.label);
   format.counted = label == "Automatic" ? "" : label;
@@ -191,11 +190,10 @@ Writer create_text(RowKind kind, const std::string& path, const granular_format&
 
 Writer create_cells(const std::string& path, const granular_format& format)
 {
-  constexpr std::array<std::pair<const char*, EulerDialect>, 2> dialects = {
-    { { "LIGGGHTS", EulerDialect::Liggghts }, { "Wide", EulerDialect::Wide } }
-  };
-  const EulerDialect dialect =
-    choose("dialect", format.dialect, dialects).value_or(EulerDialect::Automatic);
+  const EulerDialect dialect = choose_dialect<EulerDialect>(format,
+    { { "LIGGGHTS", EulerDialect::Liggghts },
+      { "Wide",
+        EulerDialect::Wide } }).value_or(EulerDialect::Automatic);
   return create_text(RowKind::Cells, path, format, false,
     [dialect](const FrameView& frame, Notices& notices, Progress& progress)
     { return text_of_cells(frame, dialect, notices, progress); });
@@ -203,9 +201,8 @@ Writer create_cells(const std::string& path, const granular_format& format)
 
 Writer create_subdomains(const std::string& path, const granular_format& format)
 {
-  constexpr std::array<std::pair<const char*, bool>, 2> dialects = { { { "INL", false },
-    { "PUBLIC", true } } };
-  const bool is_public = choose("dialect", format.dialect, dialects).value_or(false);
+  const bool is_public =
+    choose_dialect<bool>(format, { { "INL", false }, { "PUBLIC", true } }).value_or(false);
   return create_text(RowKind::Subdomains, path, format, is_public,
     [is_public](const FrameView& frame, Notices& notices, Progress& progress)
     {
@@ -246,7 +243,7 @@ const Style& find_style(const std::string& path, const std::string& name)
   if (found == std::end(styles))
   {
     throw ArgumentError(
-      "expected a style of custom, atom, local, euler, decomposition, got '" + name + "'");
+      "expected a style of " + join_words(styles, ", ", &Style::name) + ", got '" + name + "'");
   }
   return *found;
 }

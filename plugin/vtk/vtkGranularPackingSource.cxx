@@ -7,7 +7,6 @@
 #include "private/request/request_task.h"
 
 #include "granular/common/error.h"
-#include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/packing_plan.h"
 

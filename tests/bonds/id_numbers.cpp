@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "id_numbers.h"
+#include "packing.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include "granular/decomposition/process_grid.h"
 #include "granular/euler/time_average.h"
 #include "granular/geometry/positions.h"
-#include "granular/packing/bonds.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/packing_plan.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/numbers/number_print.h"
+#include "granular/numbers/number_print_few.h"
 
 #include "../support/decimals.h"
 #include "../support/exact_decimal.h"

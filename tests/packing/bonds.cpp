@@ -3,7 +3,6 @@
 #include "../support/packings.h"
 
 #include "granular/common/error.h"
-#include "granular/packing/bonds.h"
 #include "granular/packing/packing_plan.h"
 
 #include "../support/quad.h"

@@ -197,32 +197,6 @@ public:
   {
   }
 
-  DataLayout read_header()
-  {
-    std::string_view line;
-    if (this->next(line))
-    {
-      take_title(line, layout_);
-    }
-    HeaderLines header;
-    while (this->next(line))
-    {
-      if (names_section(line))
-      {
-        scanner_.put_back();
-        break;
-      }
-      header.take(line, scanner_.where(), layout_);
-    }
-    if (!header.counts_atoms)
-    {
-      throw FormatError("expected a header that counts atoms, got " + this->what_is_next(),
-        { source_.path(), scanner_.line() });
-    }
-    layout_.box = header.box();
-    return layout_;
-  }
-
   DataLayout read()
   {
     this->read_header();
@@ -254,6 +228,31 @@ public:
   }
 
 private:
+  void read_header()
+  {
+    std::string_view line;
+    if (this->next(line))
+    {
+      take_title(line, layout_);
+    }
+    HeaderLines header;
+    while (this->next(line))
+    {
+      if (names_section(line))
+      {
+        scanner_.put_back();
+        break;
+      }
+      header.take(line, scanner_.where(), layout_);
+    }
+    if (!header.counts_atoms)
+    {
+      throw FormatError("expected a header that counts atoms, got " + this->what_is_next(),
+        { source_.path(), scanner_.line() });
+    }
+    layout_.box = header.box();
+  }
+
   bool next(std::string_view& line)
   {
     constexpr std::int64_t often = 1 << 16;

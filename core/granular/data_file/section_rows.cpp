@@ -20,15 +20,11 @@ namespace
 {
 using IdSpan = std::span<const std::int64_t>;
 
-const DumpArray& array_of(const DumpFrame& frame, std::string_view name)
-{
-  return *std::ranges::find_if(
-    frame.arrays, [&](const DumpArray& array) { return array.info.name == name; });
-}
-
 IdSpan ids_of(const DumpFrame& frame)
 {
-  return { static_cast<const std::int64_t*>(array_of(frame, "id").block.data()),
+  const auto ids = std::ranges::find_if(
+    frame.arrays, [](const DumpArray& array) { return array.info.name == "id"; });
+  return { static_cast<const std::int64_t*>(ids->block.data()),
     static_cast<std::size_t>(frame.rows) };
 }
 

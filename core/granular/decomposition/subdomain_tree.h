@@ -4,8 +4,10 @@
 
 #include "granular/geometry/box.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace granular
@@ -24,7 +26,13 @@ public:
   };
 
   /// Builds the tree in n log n; each leaf has lo <= hi.
-  explicit SubdomainTree(std::vector<Node> leaves);
+  explicit SubdomainTree(std::vector<Node> leaves)
+  {
+    if (!leaves.empty())
+    {
+      this->append(leaves);
+    }
+  }
 
   /// Calls visit(leaf) for the leaves that `meets` accepts, as it does all nodes above them, until visit returns true.
   template <class Meets, class Visit>
@@ -43,6 +51,38 @@ public:
   }
 
 private:
+  /// Appends the node of these leaves and all below it. Leaves are divided along the axis along which their lower faces are
+  /// spread most.
+  void append(std::span<Node> leaves)
+  {
+    const std::size_t number = nodes_.size();
+    nodes_.push_back(leaves.front());
+    if (leaves.size() > 1)
+    {
+      Node& node = nodes_.back();
+      node.number = -1;
+      Vector3 last = node.lo;
+      for (const Node& leaf : leaves)
+      {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          node.lo[axis] = std::min(node.lo[axis], leaf.lo[axis]);
+          node.hi[axis] = std::max(node.hi[axis], leaf.hi[axis]);
+          last[axis] = std::max(last[axis], leaf.lo[axis]);
+        }
+      }
+      const auto spread = [&](std::size_t axis) { return last[axis] / 2 - node.lo[axis] / 2; };
+      std::size_t widest = spread(1) > spread(0) ? 1 : 0;
+      widest = spread(2) > spread(widest) ? 2 : widest;
+      const std::size_t half = leaves.size() / 2;
+      std::ranges::nth_element(leaves, leaves.begin() + static_cast<std::ptrdiff_t>(half), {},
+        [widest](const Node& leaf) { return leaf.lo[widest]; });
+      this->append(leaves.first(half));
+      this->append(leaves.subspan(half));
+    }
+    nodes_[number].behind = nodes_.size();
+  }
+
   std::vector<Node> nodes_;
 };
 }

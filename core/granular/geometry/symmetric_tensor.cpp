@@ -12,26 +12,22 @@ namespace
 {
 using Matrix = std::array<Vector3, 3>;
 
-double largest_in(const SymmetricTensor& tensor) noexcept
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Divides a tensor by a power of two, so that nothing over- or underflows. Returns false if it is not finite.
+bool scale(SymmetricTensor& tensor, int& power) noexcept
 {
   double largest = 0;
   for (const double value : tensor)
   {
-    largest = std::isnan(value) ? value : std::max(largest, std::abs(value));
-    if (std::isnan(largest))
-    {
-      break;
-    }
+    largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : HUGE_VAL;
   }
-  return largest;
-}
-
-SymmetricTensor scaled(const SymmetricTensor& tensor, int power) noexcept
-{
-  SymmetricTensor result;
-  std::ranges::transform(
-    tensor, result.begin(), [&](double value) { return std::ldexp(value, power); });
-  return result;
+  power = largest > 0 ? std::ilogb(largest) : 0;
+  for (double& value : tensor)
+  {
+    value = std::ldexp(value, -power);
+  }
+  return largest < HUGE_VAL;
 }
 
 /// Turns the axes p and q so that a[p][q] becomes 0 (C. G. J. Jacobi, J. Reine Angew. Math. 30, 1846).
@@ -57,16 +53,14 @@ void rotate(Matrix& a, std::size_t p, std::size_t q) noexcept
 }
 }
 
-Vector3 principal_values(const SymmetricTensor& tensor) noexcept
+Vector3 principal_values(SymmetricTensor tensor) noexcept
 {
-  const double largest = largest_in(tensor);
-  if (!std::isfinite(largest))
+  int power = 0;
+  if (!scale(tensor, power))
   {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     return { nan, nan, nan };
   }
-  const int power = largest > 0 ? std::ilogb(largest) : 0; // nothing over- or underflows then
-  const auto [xx, yy, zz, xy, xz, yz] = scaled(tensor, -power);
+  const auto& [xx, yy, zz, xy, xz, yz] = tensor;
   Matrix a = { { { xx, xy, xz }, { xy, yy, yz }, { xz, yz, zz } } };
   for (int sweep = 0; sweep < 12 && (a[0][1] != 0 || a[0][2] != 0 || a[1][2] != 0); ++sweep)
   {
@@ -80,15 +74,14 @@ Vector3 principal_values(const SymmetricTensor& tensor) noexcept
   return values;
 }
 
-double von_mises(const SymmetricTensor& tensor) noexcept
+double von_mises(SymmetricTensor tensor) noexcept
 {
-  const double largest = largest_in(tensor);
-  if (!std::isfinite(largest))
+  int power = 0;
+  if (!scale(tensor, power))
   {
-    return std::numeric_limits<double>::quiet_NaN();
+    return nan;
   }
-  const int power = largest > 0 ? std::ilogb(largest) : 0;
-  const auto [xx, yy, zz, xy, xz, yz] = scaled(tensor, -power);
+  const auto& [xx, yy, zz, xy, xz, yz] = tensor;
   const double normal = (xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx);
   return std::ldexp(std::sqrt(normal / 2 + 3 * (xy * xy + xz * xz + yz * yz)), power);
 }

@@ -13,9 +13,9 @@ using SymmetricTensor = std::array<double, 6>;
 
 /// Returns the principal values, the largest first, to some ulps of the one that is largest in magnitude; nan if the tensor
 /// is not finite.
-Vector3 principal_values(const SymmetricTensor& tensor) noexcept;
+Vector3 principal_values(SymmetricTensor tensor) noexcept;
 
 /// Returns the equivalent stress of R. von Mises: sqrt(3/2 s:s) with the deviator s.
-double von_mises(const SymmetricTensor& tensor) noexcept;
+double von_mises(SymmetricTensor tensor) noexcept;
 }
 #endif

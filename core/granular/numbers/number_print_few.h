@@ -138,7 +138,7 @@ inline char* print_natural(char* to, std::uint64_t x) noexcept
   return to + 8;
 }
 
-/// Prints a sign without a branch: that of velocities and image counts is hard to foresee.
+/// Prints an integer as %d does, in up to most_number_chars bytes. The sign takes no branch: that of velocities and image counts is hard to foresee.
 inline char* print_whole(char* to, std::int64_t value) noexcept
 {
   const std::uint64_t negative = static_cast<std::uint64_t>(value) >> 63;

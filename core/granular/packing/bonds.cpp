@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/packing/bonds.h"
+#include "granular/packing/packing_plan.h"
 
 #include "granular/common/error.h"
 #include "granular/parallel/executor.h"

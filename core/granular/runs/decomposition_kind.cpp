@@ -78,24 +78,15 @@ RunFrame read_subdomains(const RunPlace& place, const Request& request, const Of
     [](const Subdomain& each, std::size_t) { return std::int64_t{ each.rank }; });
   return frame;
 }
-
-std::span<const KnownColumn> columns() noexcept
-{
-  return subdomain_columns;
-}
-std::vector<std::size_t> no_frames(const RunIndex&)
-{
-  return {};
-}
 }
 
 constinit const Kind decomposition_kind = { .number = 5,
   .rows = RowKind::Subdomains,
   .is_file = is_decomposition_file,
   .format = decomposition_format,
-  .columns = columns,
+  .columns = []() noexcept -> std::span<const KnownColumn> { return subdomain_columns; },
   .has_pieces = true,
-  .looked_at = no_frames,
+  .looked_at = [](const RunIndex&) { return std::vector<std::size_t>(); },
   .offer = offer_subdomains,
   .read = read_subdomains };
 }

@@ -85,18 +85,13 @@ RunFrame read_cells(const RunPlace& place, const Request& request, const Offer&,
   }
   return frame;
 }
-
-std::span<const KnownColumn> columns() noexcept
-{
-  return cell_columns;
-}
 }
 
 constinit const Kind euler_kind = { .number = 4,
   .rows = RowKind::Cells,
   .is_file = is_euler_file,
   .format = euler_format,
-  .columns = columns,
+  .columns = []() noexcept -> std::span<const KnownColumn> { return cell_columns; },
   .has_pieces = true,
   .looked_at = first_with_rows,
   .offer = offer_cells,
