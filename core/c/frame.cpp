@@ -261,9 +261,6 @@ void WriteView::finish(RowKind kind)
 void WriteView::add(std::string name, ValueType type, int components, const void* data,
   std::span<const char* const> words)
 {
-  ArrayView array{ std::move(name), type, {}, components };
-  const auto* bytes = static_cast<const char*>(data);
-  std::size_t value = size_of(type);
   if (type == ValueType::Text)
   {
     const auto* const indices = static_cast<const std::int32_t*>(data);
@@ -273,20 +270,15 @@ void WriteView::add(std::string name, ValueType type, int components, const void
       const std::int32_t word = indices[row];
       if (word < 0 || static_cast<std::size_t>(word) >= words.size())
       {
-        throw ArgumentError("array '" + array.name + "': expected indices of " +
+        throw ArgumentError("array '" + name + "': expected indices of " +
           std::to_string(words.size()) + " words, got " + std::to_string(word));
       }
       texts->emplace_back(words[static_cast<std::size_t>(word)]);
     }
-    bytes = reinterpret_cast<const char*>(texts->data());
-    value = sizeof(std::string);
+    data = texts->data();
     texts_.push_back(std::move(texts));
   }
-  for (int i = 0; i < components; ++i)
-  {
-    array.components.push_back(
-      bytes == nullptr ? nullptr : bytes + static_cast<std::size_t>(i) * value);
-  }
+  ArrayView array = view_rows(std::move(name), type, data, components);
   if (array.name == points_name)
   {
     view.points = std::move(array);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 using namespace granular_c;
 
@@ -25,13 +26,23 @@ struct granular_names
 
 namespace
 {
-void write_frame(granular_writer& writer, const granular::FrameView& view)
+/// Writes the frame that view_of(writer) returns. Whatever fails, the file would lack a frame that the program wanted in it.
+template <class ViewOf>
+granular_status write_frame(granular_writer* writer, const ViewOf& view_of)
 {
-  granular::Notices notices;
-  ++writer.frames;
-  writer.caller.begin();
-  writer.write(view, notices, writer.caller);
-  writer.caller.tell(notices);
+  return guarded(
+    [&]
+    {
+      granular_writer& to = needed(writer, "writer");
+      const bool failed = std::exchange(to.failed, true);
+      const WriteView frame = view_of();
+      granular::Notices notices;
+      ++to.frames;
+      to.caller.begin();
+      to.write(frame.view, notices, to.caller);
+      to.caller.tell(notices);
+      to.failed = failed;
+    });
 }
 
 granular::NewFile& unfinished(granular_file* file)
@@ -44,15 +55,6 @@ granular::NewFile& unfinished(granular_file* file)
   return file->file;
 }
 
-/// Returns the outcome of a frame. Whatever failed, the file would lack a frame that the program wanted in it.
-granular_status noted(granular_writer* writer, granular_status status) noexcept
-{
-  if (writer != nullptr && status != GRANULAR_OK)
-  {
-    writer->failed = true;
-  }
-  return status;
-}
 }
 
 extern "C"
@@ -94,34 +96,28 @@ extern "C"
 
   granular_status granular_write(granular_writer* writer, const granular_content* content)
   {
-    return noted(writer,
-      guarded(
-        [&]
-        {
-          const granular_content given = taken(&needed(content, "content"), granular_content_init);
-          const WriteView frame(given, needed(writer, "writer").kind);
-          write_frame(*writer, frame.view);
-        }));
+    return write_frame(writer,
+      [&] {
+        return WriteView(taken(&needed(content, "content"), granular_content_init), writer->kind);
+      });
   }
 
   granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame)
   {
-    return noted(writer,
-      guarded(
-        [&]
+    return write_frame(writer,
+      [&]
+      {
+        if (writer->kind != needed(frame, "frame").kind)
         {
-          const WriteView view(needed(frame, "frame"));
-          if (needed(writer, "writer").kind != frame->kind)
-          {
-            constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
-              "subdomains" };
-            throw granular::ArgumentError(std::string("expected a frame of ") +
-              names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
-              names[static_cast<std::size_t>(frame->kind)]);
-          }
-          writer->add_inputs(*frame);
-          write_frame(*writer, view.view);
-        }));
+          constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
+            "subdomains" };
+          throw granular::ArgumentError(std::string("expected a frame of ") +
+            names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
+            names[static_cast<std::size_t>(frame->kind)]);
+        }
+        writer->add_inputs(*frame);
+        return WriteView(*frame);
+      });
   }
 
   granular_status granular_finish(granular_writer* writer)

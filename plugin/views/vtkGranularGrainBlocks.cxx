@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularGrainBlocks.h"
 
+#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -10,6 +11,7 @@
 #include "vtkGranularGrainShapes.h"
 #include "vtkHardwareSelector.h"
 #include "vtkIdList.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -26,7 +28,52 @@
 
 namespace
 {
-using namespace vtkGranularPlaceInView;
+using Place = vtkGranularGrainBlocks::Place;
+
+constexpr double MostSizes = 64.0; // of the particles together, in halves of the view's height
+
+// Returns the distance of what the camera looks at, between the clipping planes: the focal point may be anywhere on the line of sight.
+double DistanceInView(vtkCamera* camera)
+{
+  return std::clamp(
+    camera->GetDistance(), camera->GetClippingRange()[0], camera->GetClippingRange()[1]);
+}
+
+// Returns half the height of the view there.
+double HalfHeight(vtkCamera* camera)
+{
+  return camera->GetParallelProjection()
+    ? camera->GetParallelScale()
+    : DistanceInView(camera) * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+}
+
+// Returns a place near what the camera looks at, from which points are counted before they become floats.
+// It depends on the camera alone, so that all ranks find the same one. It lies on a lattice with a spacing of
+// 32 to 256 times half the height of the view. So it seldom changes, and a float holds points in view, up to
+// 2^8 such halves away, to 2^-16 of a half: some hundredths of a pixel.
+Place PlaceInView(vtkCamera* camera)
+{
+  Place position;
+  Place place;
+  camera->GetPosition(position.data());
+  camera->GetFocalPoint(place.data());
+  const double distance = DistanceInView(camera);
+  const double half = HalfHeight(camera);
+  int exponent = 0;
+  std::frexp(32.0 * half, &exponent);
+  const double spacing = std::ldexp(1.0, 3 * static_cast<int>(std::ceil(exponent / 3.0)));
+  const double along = distance / camera->GetDistance();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = position[axis] + along * (place[axis] - position[axis]);
+    place[axis] = spacing * std::round(place[axis] / spacing);
+    if (!std::isfinite(place[axis]))
+    {
+      return Place{};
+    }
+  }
+  return place;
+}
 
 // Spreads ids that follow each other: the high half of the product with the golden ratio.
 std::uint64_t HashOf(std::uint64_t id)
@@ -275,18 +322,17 @@ const vtkGranularGrainBlocks::Mappers& vtkGranularGrainBlocks::ChooseBlocks()
 }
 
 // Depths are as exact as the coordinates: the middle of the particles serves all pictures but those of a small part.
-vtkGranularPlaceInView::Place vtkGranularGrainBlocks::ChoosePlace(
+vtkGranularGrainBlocks::Place vtkGranularGrainBlocks::ChoosePlace(
   vtkCamera* camera, vtkActor* actor)
 {
   Place middle{};
   if (!this->AreDots && this->Centres.IsValid() &&
-    this->Centres.GetDiagonalLength() <
-      vtkGranularPlaceInView::MostSizes * vtkGranularPlaceInView::HalfHeight(camera))
+    this->Centres.GetDiagonalLength() < MostSizes * HalfHeight(camera))
   {
     this->Centres.GetCenter(middle.data());
     return middle;
   }
-  return vtkGranularPlaceInView::InData(vtkGranularPlaceInView::PlaceInView(camera), actor);
+  return vtkGranularGrainMapper::InData(PlaceInView(camera), actor);
 }
 
 void vtkGranularGrainBlocks::DrawBlocks(vtkRenderer* renderer, vtkActor* actor, const Place& place)

@@ -11,10 +11,10 @@
 #define vtkGranularGrainBlocks_h
 
 #include "vtkBoundingBox.h" // For a member
-#include "vtkGranularPlaceInView.h"
 #include "vtkOpenGLPointGaussianMapper.h"
 #include "vtkSmartPointer.h" // For members
 
+#include <array>  // For places
 #include <vector> // For lists
 
 class vtkCamera;
@@ -27,7 +27,7 @@ public:
   static vtkGranularGrainBlocks* New();
   vtkTypeMacro(vtkGranularGrainBlocks, vtkOpenGLPointGaussianMapper);
 
-  using Place = vtkGranularPlaceInView::Place;
+  using Place = std::array<double, 3>;
 
   /**
    * Returns true if points are in units of the box, which no radius is.

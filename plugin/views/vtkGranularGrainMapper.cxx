@@ -6,7 +6,6 @@
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
 #include "vtkGranularGrainShapes.h"
-#include "vtkGranularPlaceInView.h"
 #include "vtkGranularSuperquadrics.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
@@ -154,6 +153,19 @@ struct View
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
 
+vtkGranularGrainMapper::Place vtkGranularGrainMapper::InData(const Place& place, vtkActor* actor)
+{
+  if (actor->vtkProp3D::GetIsIdentity())
+  {
+    return place;
+  }
+  vtkNew<vtkMatrix4x4> inverse;
+  vtkMatrix4x4::Invert(actor->GetMatrix(), inverse);
+  double moved[4] = { place[0], place[1], place[2], 1.0 };
+  inverse->MultiplyPoint(moved, moved);
+  return { moved[0], moved[1], moved[2] };
+}
+
 // Returns the coordinates of the points, all or those that are seen.
 vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(
   const Counting& counting, vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen)
@@ -187,7 +199,7 @@ vtkGranularGrainMapper::Counting vtkGranularGrainMapper::ChooseCounting(
   if (!view.IsParallel() && !(view.IsInFront() && 3.0 * range[0] > range[1]))
   {
     camera->GetPosition(chosen.From.data());
-    chosen.From = vtkGranularPlaceInView::InData(chosen.From, actor);
+    chosen.From = InData(chosen.From, actor);
     for (int i = 0; i < 9; ++i)
     {
       chosen.Axes[static_cast<std::size_t>(i)] = view.ToCamera->GetElement(i / 3, i % 3);

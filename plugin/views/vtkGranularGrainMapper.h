@@ -38,6 +38,11 @@ public:
   using Place = std::array<double, 3>;
 
   /**
+   * Returns where a place is in the coordinates of the data that an actor moves.
+   */
+  static Place InData(const Place& place, vtkActor* actor);
+
+  /**
    * Draws the input with the radii, shapes, colours and opacities that another mapper tells. Coordinates are counted from a place before
    * they become floats.
    */

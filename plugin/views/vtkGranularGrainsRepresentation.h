@@ -74,6 +74,7 @@ public:
   void SetAmbient(double part);
   void SetDiffuse(double part);
   void SetSpecular(double brightness);
+  using Superclass::SetSpecularPower;
   ///@}
 
 protected:

@@ -83,7 +83,7 @@ def proxies(root):
 def methods(header):
     """Names of the methods a VTK header declares, those made by its macros included."""
     code = tree.strip(header)
-    names = set(re.findall(r"\b([A-Za-z_]\w*)\s*\(", code))
+    names = set(re.findall(r"\b([A-Za-z_]\w*)\s*\(", code)) | set(re.findall(r"\busing\s+\w+::(\w+);", code))
     for macro, name in re.findall(r"\bvtk(?:Granular)?(Set|Get|Boolean)\w*Macro\s*\(\s*(\w+)", code):
         names |= {name + "On", name + "Off"} if macro == "Boolean" else {macro + name}
     return names

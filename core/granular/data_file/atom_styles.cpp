@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <span>
 
 namespace granular
 {
@@ -19,6 +20,17 @@ constexpr std::string_view ellipsoids =
 constexpr std::string_view exponents = "block1 block2";
 constexpr std::string_view spins = "id vx vy vz omegax omegay omegaz";
 
+/// The columns of the sections Atoms and Velocities in an atom style, with the names in dumps. Three image counts ix iy iz
+/// may follow in all rows of Atoms.
+struct AtomStyle
+{
+  std::string_view name;
+  std::string_view columns;
+  std::string_view velocities = "id vx vy vz";
+  bool has_bonds = false; ///< particles of the style may have bonds
+};
+
+/// From the documentation of LAMMPS (read_data) and the sources of LIGGGHTS.
 constexpr AtomStyle styles[] = {
   { .name = "atomic", .columns = "id type x y z" },
   { .name = "charge", .columns = "id type q x y z" },
@@ -73,54 +85,44 @@ bool fits(const AtomStyle& style, const DataLayout& layout)
     split_words(layout.velocities->first_row).size() == split_words(style.velocities).size();
 }
 
-std::string names_of(const std::vector<const AtomStyle*>& list)
+std::string names_of(std::span<const AtomStyle> list)
 {
-  return join_words(list, " ", [](const AtomStyle* style) { return style->name; });
+  return join_words(list, " ", &AtomStyle::name);
 }
 
-std::vector<const AtomStyle*> all_styles()
+std::vector<AtomStyle> styles_that_fit(const DataLayout& layout)
 {
-  std::vector<const AtomStyle*> all;
-  std::ranges::transform(
-    styles, std::back_inserter(all), [](const AtomStyle& style) { return &style; });
-  return all;
-}
-
-std::vector<const AtomStyle*> styles_that_fit(const DataLayout& layout)
-{
-  std::vector<const AtomStyle*> fitting = all_styles();
-  std::erase_if(fitting, [&](const AtomStyle* style) { return !fits(*style, layout); });
+  std::vector<AtomStyle> fitting(std::begin(styles), std::end(styles));
+  std::erase_if(fitting, [&](const AtomStyle& style) { return !fits(style, layout); });
   return fitting;
 }
 
 /// "those of sphere granular fit: set AtomStyle".
 std::string advice(const DataLayout& layout)
 {
-  const std::vector<const AtomStyle*> fitting = styles_that_fit(layout);
+  const std::vector<AtomStyle> fitting = styles_that_fit(layout);
   return fitting.empty() ? "none of these fits the first rows: make a dump of the file"
                          : "those of " + names_of(fitting) + " fit the first rows: set AtomStyle";
 }
 
 /// The only style that fits, up to others with the same columns.
-const AtomStyle& guess(const DataLayout& layout, const Where& where, Notices& notices)
+AtomStyle guess(const DataLayout& layout, const Where& where, Notices& notices)
 {
-  const std::vector<const AtomStyle*> fitting = styles_that_fit(layout);
+  const std::vector<AtomStyle> fitting = styles_that_fit(layout);
   std::set<std::string_view> columns;
-  std::ranges::transform(fitting, std::inserter(columns, columns.end()),
-    [](const AtomStyle* style) { return style->columns; });
+  std::ranges::transform(fitting, std::inserter(columns, columns.end()), &AtomStyle::columns);
   const std::size_t words = split_words(layout.particles->first_row).size();
   if (columns.size() != 1)
   {
     throw FormatError("expected the atom style as in 'Atoms # sphere', got none, and rows of " +
-        std::to_string(words) + " words; of the styles " + names_of(all_styles()) + ", " +
-        advice(layout),
+        std::to_string(words) + " words; of the styles " + names_of(styles) + ", " + advice(layout),
       where);
   }
   notices.push_back({ where,
     "the atom style is not in the file: the columns are taken for those of " + names_of(fitting) +
-      ", " + join_words(columns_of(*fitting.front(), words)) +
+      ", " + join_words(columns_of(fitting.front(), words)) +
       "; if they are others, set AtomStyle" });
-  return *fitting.front();
+  return fitting.front();
 }
 
 std::vector<std::string> to_strings(const Words& words)
@@ -151,11 +153,6 @@ std::vector<std::string> find_ellipsoid_columns(const DataLayout& layout, const 
 }
 }
 
-std::span<const AtomStyle> atom_styles() noexcept
-{
-  return styles;
-}
-
 DataColumns find_data_columns(
   const DataLayout& layout, std::string_view asked, const std::string& path, Notices& notices)
 {
@@ -166,8 +163,8 @@ DataColumns find_data_columns(
   const auto known = std::ranges::find(styles, named, &AtomStyle::name);
   if (known == std::end(styles) && !named.empty())
   {
-    throw FormatError("expected an atom style of " + names_of(all_styles()) + ", got " +
-        quoted(named) + (layout.particles ? "; " + advice(layout) : ""),
+    throw FormatError("expected an atom style of " + names_of(styles) + ", got " + quoted(named) +
+        (layout.particles ? "; " + advice(layout) : ""),
       where);
   }
   if (!layout.particles)
@@ -176,9 +173,9 @@ DataColumns find_data_columns(
       {} };
   }
   const bool empty = layout.particles->rows == 0;
-  const AtomStyle& style = known != std::end(styles) ? *known
-    : empty                                          ? styles[0]
-                                                     : guess(layout, where, notices);
+  const AtomStyle style = known != std::end(styles) ? *known
+    : empty                                         ? styles[0]
+                                                    : guess(layout, where, notices);
   const std::size_t usual = split_words(style.columns).size();
   const std::size_t words = empty ? usual : split_words(layout.particles->first_row).size();
   DataColumns columns{ to_strings(columns_of(style, words)), {},

@@ -7,26 +7,12 @@
 #include "granular/local/local_reader.h"
 
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace granular
 {
-/// The columns of the sections Atoms and Velocities in an atom style, with the names in dumps. Three image counts ix iy iz
-/// may follow in all rows of Atoms.
-struct AtomStyle
-{
-  std::string_view name;
-  std::string_view columns;
-  std::string_view velocities = "id vx vy vz";
-  bool has_bonds = false; ///< particles of the style may have bonds
-};
-
-/// The table of atom styles, from the documentation of LAMMPS (read_data) and the sources of LIGGGHTS.
-std::span<const AtomStyle> atom_styles() noexcept;
-
 /// The columns of a data file.
 struct DataColumns
 {

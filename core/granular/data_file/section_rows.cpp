@@ -70,8 +70,8 @@ ParticleValues values_of(const DumpFrame& table)
   {
     if (array.info.name != "id" && &array != &vector)
     {
-      values.arrays.push_back(view_rows(array.info.name, ValueType::Float64,
-        static_cast<const double*>(array.block.data()), array.info.components()));
+      values.arrays.push_back(view_rows(
+        array.info.name, ValueType::Float64, array.block.data(), array.info.components()));
     }
   }
   return values;

@@ -54,13 +54,9 @@ void index_vtu(const ByteSource& source, FileIndex& index)
       index, { { source.path() }, "expected </VTKFile> at the end of the file, got none" });
     return;
   }
-  FrameEntry entry;
-  entry.rows = look_at(text).cells;
-  entry.end = static_cast<std::int64_t>(text.size());
-  entry.line = 1;
-  entry.kind = index.kinds->share(FrameKind{});
-  index.resume_offset = entry.end;
-  index.frames.push_back(std::move(entry));
+  add_whole(index,
+    { .rows = look_at(text).cells, .end = static_cast<std::int64_t>(text.size()), .line = 1 },
+    nullptr);
 }
 
 /// More frames that are left out are counted only.

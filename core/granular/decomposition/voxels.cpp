@@ -11,22 +11,16 @@ namespace
 constexpr std::size_t corners = corners_of_voxel;
 constexpr std::size_t subdomains_a_chunk = 16384;
 
-/// The corners of a box in an order of cells: of each corner which bound it has along x (1), y (2) and z (4).
-struct KnownOrder
-{
-  CornerOrder order;
-  std::array<unsigned, corners> sides;
-};
-
 bool is_same(double a, double b) noexcept
 {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-constexpr KnownOrder known_orders[] = {
-  { CornerOrder::Voxel, { 0, 1, 2, 3, 4, 5, 6, 7 } },
-  { CornerOrder::Reflected, { 0, 4, 2, 6, 1, 5, 3, 7 } },
-  { CornerOrder::Hexahedron, { 0, 1, 3, 2, 4, 5, 7, 6 } },
+/// The corners of a box in each CornerOrder: which bound each has along x (1), y (2) and z (4).
+constexpr std::array<unsigned, corners> known_orders[] = {
+  { 0, 1, 2, 3, 4, 5, 6, 7 },
+  { 0, 4, 2, 6, 1, 5, 3, 7 },
+  { 0, 1, 3, 2, 4, 5, 7, 6 },
 };
 }
 
@@ -69,20 +63,21 @@ Voxels make_voxels(std::span<const Subdomain> subdomains, const Vector3& origin,
 CornerOrder bounds_of_cell(
   std::span<const Vector3, corners_of_voxel> points, Subdomain& subdomain) noexcept
 {
-  for (const KnownOrder& known : known_orders)
+  std::uint8_t order = 0;
+  for (const auto& sides : known_orders)
   {
     Subdomain box;
     for (std::size_t i = 0; i < corners; ++i)
     {
-      box.lo = known.sides[i] == 0 ? points[i] : box.lo;
-      box.hi = known.sides[i] == 7 ? points[i] : box.hi;
+      box.lo = sides[i] == 0 ? points[i] : box.lo;
+      box.hi = sides[i] == 7 ? points[i] : box.hi;
     }
     bool right = true;
     for (std::size_t i = 0; i < corners; ++i)
     {
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        const bool high = (known.sides[i] >> axis & 1) != 0;
+        const bool high = (sides[i] >> axis & 1) != 0;
         right = right && is_same(points[i][axis], (high ? box.hi : box.lo)[axis]);
       }
     }
@@ -90,9 +85,10 @@ CornerOrder bounds_of_cell(
     {
       subdomain.lo = box.lo;
       subdomain.hi = box.hi;
-      return known.order;
+      break;
     }
+    ++order;
   }
-  return CornerOrder::None;
+  return static_cast<CornerOrder>(order);
 }
 }

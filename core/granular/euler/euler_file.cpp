@@ -30,14 +30,12 @@ void tell(FileIndex& index, const Notice& notice)
 
 void add_frame(LegacyVtk& file, const EulerDataset& dataset, FileIndex& index)
 {
-  FrameEntry entry;
-  entry.rows = dataset.cells;
-  entry.offset = dataset.header.place.offset;
-  entry.end = file.place().offset;
-  entry.line = dataset.header.binary ? 0 : dataset.header.place.line;
-  entry.kind = index.kinds->share(FrameKind{});
-  index.frames.push_back(std::move(entry));
-  index.resume_offset = file.place().offset;
+  add_whole(index,
+    { .rows = dataset.cells,
+      .offset = dataset.header.place.offset,
+      .end = file.place().offset,
+      .line = dataset.header.binary ? 0 : dataset.header.place.line },
+    nullptr);
   if (file.at_header())
   {
     tell(index,

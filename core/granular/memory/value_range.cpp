@@ -9,28 +9,17 @@ namespace granular
 {
 namespace
 {
-/// In registers, unlike what lies behind the object.
-struct Extremes
+/// Extends bounds; nan changes nothing.
+void extend(ValueRange::Bounds& bounds, double least, double largest) noexcept
 {
-  double least = std::numeric_limits<double>::infinity();
-  double largest = -std::numeric_limits<double>::infinity();
-
-  void add(double value) noexcept
-  {
-    least = value < least ? value : least;
-    largest = value > largest ? value : largest;
-  }
-
-  void join(ValueRange::Bounds& bounds) const noexcept
-  {
-    bounds = { std::min(bounds[0], least), std::max(bounds[1], largest) };
-  }
-};
+  bounds = { std::min(bounds[0], least), std::max(bounds[1], largest) };
+}
 
 /// Two values at a time, in whatever registers there are.
 using Pair [[gnu::vector_size(16)]] = double;
 
-struct PairExtremes
+/// In registers, unlike what lies behind the object.
+struct Extremes
 {
   Pair least = Pair{} + std::numeric_limits<double>::infinity();
   Pair largest = Pair{} - std::numeric_limits<double>::infinity();
@@ -43,8 +32,8 @@ struct PairExtremes
 
   void join(ValueRange::Bounds& low, ValueRange::Bounds& high) const noexcept
   {
-    Extremes{ least[0], largest[0] }.join(low);
-    Extremes{ least[1], largest[1] }.join(high);
+    extend(low, least[0], largest[0]);
+    extend(high, least[1], largest[1]);
   }
 };
 
@@ -53,8 +42,8 @@ template <std::size_t n, typename T>
 bool add_rows(const T* values, std::size_t rows, ValueRange::Bounds* components,
   ValueRange::Bounds& squares) noexcept
 {
-  PairExtremes each[n];
-  PairExtremes sums;
+  Extremes each[n];
+  Extremes sums;
   auto none = Pair{} != Pair{};
   T last[2 * n];
   for (std::size_t row = 0; row < rows; row += 2, values += 2 * n)
@@ -107,13 +96,11 @@ void ValueRange::add(const T* values, std::size_t rows) noexcept
     for (std::size_t i = 0; i < n; ++i)
     {
       const auto value = static_cast<double>(values[i]);
-      Extremes one;
-      one.add(value);
-      one.join(components_[i]);
+      extend(components_[i], value, value);
       sum += value * value;
     }
     numbers_ = numbers_ && !std::isnan(sum);
-    squares_ = { std::min(squares_[0], sum), std::max(squares_[1], sum) };
+    extend(squares_, sum, sum);
   }
 }
 
@@ -126,9 +113,9 @@ void ValueRange::add(const ValueRange& other) noexcept
 {
   for (std::size_t i = 0; i < components_.size(); ++i)
   {
-    Extremes{ other.components_[i][0], other.components_[i][1] }.join(components_[i]);
+    extend(components_[i], other.components_[i][0], other.components_[i][1]);
   }
-  Extremes{ other.squares_[0], other.squares_[1] }.join(squares_);
+  extend(squares_, other.squares_[0], other.squares_[1]);
   numbers_ = numbers_ && other.numbers_;
 }
 

@@ -37,6 +37,19 @@ static void pass(Archive& archive, typename Archive::template Passed<FrameView>&
   archive.number(frame.point_origin);
 }
 
+ArrayView view_rows(std::string name, ValueType type, const void* values, int size)
+{
+  const std::size_t bytes = type == ValueType::Text ? sizeof(std::string) : size_of(type);
+  const auto* value = static_cast<const char*>(values);
+  ArrayView view{ std::move(name), type, {}, size };
+  for (int i = 0; i < size; ++i)
+  {
+    view.components.push_back(value);
+    value += values ? bytes : 0;
+  }
+  return view;
+}
+
 void share_header(FrameView& frame, Communicator& ranks)
 {
   do_together(ranks,

@@ -38,17 +38,8 @@ struct ArrayView
   }
 };
 
-/// Returns an array whose rows are contiguous, `size` values each.
-template <class Value>
-ArrayView view_rows(std::string name, ValueType type, const Value* values, int size = 1)
-{
-  ArrayView view{ std::move(name), type, {}, size };
-  for (int i = 0; i < size; ++i)
-  {
-    view.components.push_back(values ? values + i : nullptr);
-  }
-  return view;
-}
+/// Returns an array whose rows are contiguous, `size` values each; those of a Text are std::string.
+ArrayView view_rows(std::string name, ValueType type, const void* values, int size = 1);
 
 /// The rows of one rank of a frame to be written. Nothing is copied: the viewed data must stay until the frame is written.
 struct FrameView
