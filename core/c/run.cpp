@@ -161,7 +161,7 @@ void granular_run::refresh(Caller& caller)
   const std::lock_guard refreshing(
     refresh_mutex_); // others, and functions for progress, see the run as it was meanwhile
   Notices notices;
-  Run updated = run_; // after an error the run is as it was
+  Run updated = run_.without_offers(); // after an error the run is as it was
   SerialCommunicator alone;
   updated.refresh(find_files(patterns_), run_.options(), alone, notices, caller);
   std::vector<double> new_times = updated.index().times(timestep_size_, notices);

@@ -487,6 +487,38 @@ TEST(CInterface, SeveralThreadsReadOneRun)
   EXPECT_EQ(same, std::vector<int>(4, 20));
 }
 
+// Files of cells are asked for their arrays one by one, and anew after each refresh.
+TEST(CInterface, ThreadsReadARunThatAnotherRefreshes)
+{
+  const RunHandle run = open_run(good("euler_*.vtk"));
+  std::vector<std::thread> threads;
+  std::vector<int> same(3);
+  for (std::size_t t = 0; t < same.size(); ++t)
+  {
+    threads.emplace_back(
+      [&, t]
+      {
+        for (int turn = 0; turn < 80; ++turn)
+        {
+          std::size_t count = 0;
+          same[t] +=
+            granular_arrays(run.get(), turn % 4, 0, nullptr, 0, &count) == GRANULAR_OK && count == 4
+            ? 1
+            : 0;
+        }
+      });
+  }
+  for (int turn = 0; turn < 40; ++turn)
+  {
+    EXPECT_EQ(granular_refresh(run.get(), nullptr, nullptr, nullptr), GRANULAR_OK) << message();
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(same, std::vector<int>(3, 80));
+}
+
 TEST(CInterface, FindsFilesInTheOrderOfTheirNumbers)
 {
   granular_names* names = nullptr;

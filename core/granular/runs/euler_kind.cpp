@@ -77,11 +77,12 @@ RunFrame read_cells(const RunPlace& place, const Request& request, const Offer&,
   if (request.points)
   {
     table.points = block_of(cells.centres);
+    cells.centres = std::vector<double>();
   }
   for (EulerValues& array : cells.arrays)
   {
     add_array(table, array.name, ValueType::Float64, array.components, block_of(array.values));
-    array.values = {};
+    array.values = std::vector<double>(); // or there would be two of all
   }
   return frame;
 }

@@ -32,6 +32,14 @@ void Run::refresh(const std::vector<std::string>& files, const RunOptions& optio
   update_run_index(index_, ranks, files, index_options(*kind_, options), notices, progress);
 }
 
+Run Run::without_offers() const
+{
+  Run made(*kind_);
+  made.options_ = options_;
+  made.index_ = index_;
+  return made;
+}
+
 void Run::set_options(const RunOptions& options)
 {
   if (!options_.tell_the_same(options))

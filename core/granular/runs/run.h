@@ -34,6 +34,9 @@ public:
   void refresh(const std::vector<std::string>& files, const RunOptions& options,
     Communicator& ranks, Notices& notices, Progress& progress);
 
+  /// Returns the run as it is before its files were asked. Others may call offer() meanwhile.
+  Run without_offers() const;
+
   /// Takes options. Others of column_names and repeated_steps need a refresh.
   void set_options(const RunOptions& options);
 

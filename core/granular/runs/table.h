@@ -51,7 +51,8 @@ struct Offer
   std::vector<std::string> columns; ///< of local data: their meaning, see find_columns
   std::string error;                ///< why the meaning cannot be known; empty: it is
   Where where;                      ///< of the error
-  Notices notices;                  ///< for whoever reads the frame
+  Notices
+    notices; ///< for whoever reads a frame with these columns; they name the one that was asked first
 };
 
 template <typename Archive>
