@@ -7,23 +7,23 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "time"
-grains = granular.reader(data / "falling.dump.gz", dt=2e-5)
+particles = granular.reader(data / "falling.dump.gz", dt=2e-5)
 
-# 40 grains at random: the last eight frames before the time of the view, at any time.
-tails = GranularTrajectories(Input=grains, NumberOfSamples=40, Tail=8)
-# Three grains from the first frame to the last. The box is periodic in x and y, and paths go on outside.
-whole = GranularTrajectories(Input=grains, Ids="17 100 200")
+# 40 particles at random: the last eight frames before the time of the view, at any time.
+tails = GranularTrajectories(Input=particles, NumberOfSamples=40, Tail=8)
+# Three particles from the first frame to the last. The box is periodic in x and y, and paths go on outside.
+whole = GranularTrajectories(Input=particles, Ids="17 100 200")
 
 strip = CreateLayout()
 strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
-moments = (0.06, 0.1, grains.TimestepValues[-1])
+moments = (0.06, 0.1, particles.TimestepValues[-1])
 for place, moment in zip((1, 5, 6), moments):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
     view.ViewTime = moment  # each view has its own
     last = moment == moments[-1]
-    granular.show(grains, view).Opacity = 0.05 if last else 0.2
+    granular.show(particles, view).Opacity = 0.05 if last else 0.2
     shown = Show(Tube(Input=whole if last else tails, Radius=0.0006), view)
     ColorBy(shown, ("POINTS", "speed"))
     colors = GetColorTransferFunction("speed")
@@ -31,7 +31,7 @@ for place, moment in zip((1, 5, 6), moments):
     granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1, ScalarBarLength=0.3,
                             WindowLocation="Lower Right Corner", **granular.label_format("%.1f"))
     shown.SetScalarBarVisibility(view, last)
-    Show(OutputPort(grains, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
+    Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     text = "all the way of three grains" if last else f"{moment:.2f} s"
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)
@@ -41,7 +41,7 @@ SaveScreenshot("tails.png", strip, SeparatorWidth=0, OverrideColorPalette="White
 
 # A tail is the end of the whole path: nine places, eight steps.
 paths = servermanager.Fetch(whole)
-assert paths.GetNumberOfCells() == 3 and paths.GetNumberOfPoints() == 3 * len(grains.TimestepValues)
+assert paths.GetNumberOfCells() == 3 and paths.GetNumberOfPoints() == 3 * len(particles.TimestepValues)
 tails.UpdatePipeline(moments[1])
 drawn = servermanager.Fetch(tails)
 times = np.array(drawn.GetPointData().GetArray("time"))

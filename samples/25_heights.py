@@ -7,11 +7,11 @@ import numpy as np
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "time"
-grains = granular.reader(data / "falling.dump.gz", dt=2e-5)
+particles = granular.reader(data / "falling.dump.gz", dt=2e-5)
 ids = [17, 100, 200]
 
-# A table with a row for each frame, and columns for each grain: position (id 17), and so on.
-history = GranularHistory(Input=grains, Ids=" ".join(map(str, ids)))
+# A table with a row for each frame, and columns for each particle: position (id 17), and so on.
+history = GranularHistory(Input=particles, Ids=" ".join(map(str, ids)))
 # The log of the same run, two tables of thermo output. Its times are those of the dump.
 log = granular.read_log(data / "falling_log.txt")
 np.savetxt("energy.csv", np.column_stack((log.times, 1000 * log["KinEng"])), delimiter=",", header="time,energy [mJ]", comments="")
@@ -40,7 +40,7 @@ granular.set_properties(chart, LeftAxisTitle="height [m]", BottomAxisTitle="time
 SaveScreenshot("heights.png", chart, ImageResolution=[900, 500], OverrideColorPalette="WhiteBackground")
 
 # The same as numpy arrays.
-found = granular.history(grains, ids=ids)
+found = granular.history(particles, ids=ids)
 heights = found["position"][:, :, 2]
 assert heights.shape == (50, 3) and np.isin(found["timestep"], log.steps).all()
 print(f"grains at {', '.join(f'{1000 * height:.1f}' for height in heights[-1])} mm; energy at most "

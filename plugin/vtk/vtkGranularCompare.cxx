@@ -8,7 +8,7 @@
 #include "private/request/guard.h"
 #include "private/request/request_task.h"
 
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_loader.h"
 #include "granular/grid/sphere_box.h"
 #include "granular/local/fetch_particles.h"
 #include "granular/numbers/number_print.h"
@@ -121,7 +121,7 @@ std::optional<std::vector<double>> ReadMasses(const granular::FrameView& view,
   const std::string& name, const Rows& rows, granular::Communicator& ranks)
 {
   const auto [velocity, radius, mass, density, stress] =
-    granular::find_grain_sources(view, { "", "radius", name, "" });
+    granular::find_particle_sources(view, { "", "radius", name, "" });
   const bool known = mass || density;
   std::array<std::int64_t, 2> counts = { view.rows > 0 && known ? 1 : 0,
     view.rows > 0 && !known ? 1 : 0 };

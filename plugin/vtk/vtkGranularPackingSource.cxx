@@ -33,7 +33,7 @@ namespace
 {
 enum Ports
 {
-  GRAINS,
+  PARTICLES,
   BOX,
   BONDS
 };
@@ -127,7 +127,7 @@ private:
   }
 
   /**
-   * None, if it is to be made for the grains.
+   * None, if it is to be made for the particles.
    */
   std::optional<granular::Box> FindBox() const
   {
@@ -160,9 +160,9 @@ private:
     request.arrangement = ArrangementOf(self.Arrangement);
     request.box = this->FindBox();
     std::copy_n(self.BoxOrigin, 3, request.corner.begin());
-    constexpr vtkTypeInt64 grainsWithoutBox = 1000;
-    request.grains =
-      self.NumberOfGrains == 0 && !request.box ? grainsWithoutBox : self.NumberOfGrains;
+    constexpr vtkTypeInt64 particlesWithoutBox = 1000;
+    request.particles =
+      self.NumberOfGrains == 0 && !request.box ? particlesWithoutBox : self.NumberOfGrains;
     request.boundary = self.Boundary;
     request.radii.kind = KindOf(self.Radii);
     request.radii.first = self.Radius;
@@ -191,17 +191,17 @@ private:
         granular::make_bonds(plan, this->Self->BondFactor, this->Progress);
       FillBonds(this->GetOutput<vtkPolyData>(BONDS), bonds);
     }
-    FillParticles(this->GetOutput<vtkPolyData>(GRAINS), frame, false, VertexCells::OnePerPoint,
+    FillParticles(this->GetOutput<vtkPolyData>(PARTICLES), frame, false, VertexCells::OnePerPoint,
       *this->Self->Vertices, nullptr);
     if (plan.request.piece == 0)
     {
       FillBox(this->GetOutput<vtkUnstructuredGrid>(BOX), frame.header.box, frame.coordinates, {});
     }
-    for (const int port : { GRAINS, BOX, BONDS })
+    for (const int port : { PARTICLES, BOX, BONDS })
     {
       FillFieldData(this->GetOutput<vtkDataObject>(port)->GetFieldData(), frame, {});
     }
-    this->GetOutput<vtkDataObject>(BONDS)->GetFieldData()->RemoveArray("Columns"); // of grains
+    this->GetOutput<vtkDataObject>(BONDS)->GetFieldData()->RemoveArray("Columns"); // of particles
   }
 };
 
@@ -220,7 +220,7 @@ vtkGranularPackingSource::~vtkGranularPackingSource() = default;
 //------------------------------------------------------------------------------
 vtkPolyData* vtkGranularPackingSource::GetOutput()
 {
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(GRAINS));
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(PARTICLES));
 }
 
 //------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bits.h"
 
-#include "../euler/made_grains.h"
+#include "../euler/made_particles.h"
 
 #include "granular/decomposition/process_grid.h"
 #include "granular/euler/time_average.h"
@@ -63,21 +63,21 @@ private:
   std::mt19937_64 random_{ 17 };
 };
 
-std::vector<Grain> some_grains(Numbers& numbers)
+std::vector<Particle> some_particles(Numbers& numbers)
 {
-  std::vector<Grain> grains(400);
-  for (Grain& grain : grains)
+  std::vector<Particle> particles(400);
+  for (Particle& particle : particles)
   {
-    grain.x = { numbers(-1.5, 3), numbers(-1, 5), numbers(2, 1) };
-    grain.v = { numbers(-1, 2), numbers(0, 2), numbers(8, 1) };
-    grain.radius = numbers(0.03125, 0.25);
-    grain.mass = numbers(0, 1);
-    for (double& value : grain.stress)
+    particle.x = { numbers(-1.5, 3), numbers(-1, 5), numbers(2, 1) };
+    particle.v = { numbers(-1, 2), numbers(0, 2), numbers(8, 1) };
+    particle.radius = numbers(0.03125, 0.25);
+    particle.mass = numbers(0, 1);
+    for (double& value : particle.stress)
     {
       value = numbers(-1, 2);
     }
   }
-  return grains;
+  return particles;
 }
 
 void add_averages(Lines& lines)
@@ -95,7 +95,8 @@ void add_averages(Lines& lines)
       TimeAverage time;
       for (int frame = 0; frame < 2; ++frame)
       {
-        const EulerAverages averages = average(Grains(some_grains(numbers)).frame(&box), request);
+        const EulerAverages averages =
+          average(Grains(some_particles(numbers)).frame(&box), request);
         lines.add("average in " + std::to_string(count) + " cells", averages.cells);
         time.add(averages);
       }
@@ -114,7 +115,7 @@ void add_packings(Lines& lines)
     {
       PackingRequest request;
       request.arrangement = arrangement;
-      request.grains = arrangement == Arrangement::Chain ? 9 : 300;
+      request.particles = arrangement == Arrangement::Chain ? 9 : 300;
       request.speed = 0.3;
       request.radii.first = 0.4375;
       request.spacing = arrangement == Arrangement::Random ? 1 : 1.1;
@@ -122,7 +123,7 @@ void add_packings(Lines& lines)
       {
         request.box = tilted;
         request.boundary = "pp pp pp";
-        request.grains = arrangement == Arrangement::Chain ? 9 : 0;
+        request.particles = arrangement == Arrangement::Chain ? 9 : 0;
       }
       Progress progress;
       const PackingPlan plan(request, progress);

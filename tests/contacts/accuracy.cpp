@@ -69,8 +69,8 @@ Scene scene_in(const Box& box, double reach, unsigned seed)
       count += reach * (2 * unit(random) - 1);
       count -= std::floor(count);
     }
-    scene.grains.push_back({ 2 * i, inside(at), 0.1 + unit(random) });
-    scene.grains.push_back({ 2 * i + 1, inside(next), 0.1 + unit(random) });
+    scene.particles.push_back({ 2 * i, inside(at), 0.1 + unit(random) });
+    scene.particles.push_back({ 2 * i + 1, inside(next), 0.1 + unit(random) });
     scene.pairs.push_back({ 2 * i, 2 * i + 1, {}, {}, random_vector(random, 5) });
     scene.pairs.push_back({ 2 * i + 1, 2 * i, {}, {}, random_vector(random, 5) });
   }
@@ -116,17 +116,17 @@ Quad3 shortest(const Box& box, const Vector3& from, const Vector3& to)
 double stress_error(const Scene& scene, const ContactSumsRequest& request)
 {
   const Found found = sum_all(scene, request);
-  std::vector<Quad6> sums(scene.grains.size());
-  std::vector<Quad6> terms(scene.grains.size());
+  std::vector<Quad6> sums(scene.particles.size());
+  std::vector<Quad6> terms(scene.particles.size());
   for (const Touch& touch : scene.pairs)
   {
     const auto first = static_cast<std::size_t>(touch.id1);
     const auto second = static_cast<std::size_t>(touch.id2);
-    const Quad3 branch = shortest(*scene.box, scene.grains[first].x, scene.grains[second].x);
-    const Quad radius = scene.grains[first].radius;
+    const Quad3 branch = shortest(*scene.box, scene.particles[first].x, scene.particles[second].x);
+    const Quad radius = scene.particles[first].radius;
     const Quad part = request.options.arm == LeverArm::Half
       ? static_cast<Quad>(0.5)
-      : radius / (radius + static_cast<Quad>(scene.grains[second].radius));
+      : radius / (radius + static_cast<Quad>(scene.particles[second].radius));
     for (std::size_t n = 0; n < 6; ++n)
     {
       // the arms of both ends are along the branch, with opposite forces at opposite sides
@@ -143,7 +143,7 @@ double stress_error(const Scene& scene, const ContactSumsRequest& request)
   {
     for (std::size_t n = 0; n < 6; ++n)
     {
-      const Quad error = absolute(static_cast<Quad>(found.grains[i].stress[n]) - sums[i][n]);
+      const Quad error = absolute(static_cast<Quad>(found.particles[i].stress[n]) - sums[i][n]);
       worst = std::max(worst, static_cast<double>(error / terms[i][n]) * 0x1p53);
     }
   }
@@ -196,7 +196,7 @@ TEST(Accuracy, Fabric)
   for (const double size : { 1.0, 1e-6, 1e60 })
   {
     Scene scene;
-    scene.grains = { { 1, {}, 1 } };
+    scene.particles = { { 1, {}, 1 } };
     Quad6 sums = {};
     for (int i = 1; i <= 150; ++i)
     {
@@ -214,7 +214,7 @@ TEST(Accuracy, Fabric)
       {
         sums[n] += branch[axes[n][0]] * branch[axes[n][1]] / square;
       }
-      const made::Six fabric = sum_all(scene).grains[0].fabric;
+      const made::Six fabric = sum_all(scene).particles[0].fabric;
       for (std::size_t n = 0; n < 6; ++n)
       {
         const Quad error = absolute(static_cast<Quad>(fabric[n]) - sums[n] / i);
@@ -234,14 +234,14 @@ Scene open_scene(unsigned seed)
   Scene scene;
   for (int i = 0; i < 60; ++i)
   {
-    scene.grains.push_back({ i, random_vector(random, 10), 0.1 + unit(random) });
+    scene.particles.push_back({ i, random_vector(random, 10), 0.1 + unit(random) });
   }
   for (int i = 0; i < 400; ++i)
   {
     const auto first = static_cast<std::size_t>(random() % 60);
     const auto second = static_cast<std::size_t>(random() % 60);
     scene.pairs.push_back({ static_cast<made::Id>(first), static_cast<made::Id>(second),
-      scene.grains[first].x, scene.grains[second].x, random_vector(random, 3), {},
+      scene.particles[first].x, scene.particles[second].x, random_vector(random, 3), {},
       random_vector(random, 3), random_vector(random, 10) });
   }
   return scene;
@@ -276,12 +276,12 @@ TEST(Accuracy, TotalStressDependsOnNoArm)
       request.options.arm = kind == 2 ? LeverArm::Half : LeverArm::ContactPoint;
       Quad6 sums = {};
       Quad6 terms = {};
-      for (const made::Sums& grain : sum_all(scene, request).grains)
+      for (const made::Sums& particle : sum_all(scene, request).particles)
       {
         for (std::size_t n = 0; n < 6; ++n)
         {
-          sums[n] += static_cast<Quad>(grain.stress[n]);
-          terms[n] += absolute(static_cast<Quad>(grain.stress[n]));
+          sums[n] += static_cast<Quad>(particle.stress[n]);
+          terms[n] += absolute(static_cast<Quad>(particle.stress[n]));
         }
       }
       for (std::size_t n = 0; n < 6; ++n)
@@ -311,10 +311,10 @@ TEST(Accuracy, NoForceAndNoMomentOfAll)
       Quad3 moment = {};
       Quad3 forces = {};
       Quad3 moments = {};
-      for (std::size_t i = 0; i < scene.grains.size(); ++i)
+      for (std::size_t i = 0; i < scene.particles.size(); ++i)
       {
-        const Vector3& x = scene.grains[i].x;
-        const made::Sums& sums = found.grains[i];
+        const Vector3& x = scene.particles[i].x;
+        const made::Sums& sums = found.particles[i];
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           const std::size_t next = (axis + 1) % 3;

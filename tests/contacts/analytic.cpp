@@ -10,7 +10,7 @@
 
 using made::everything;
 using made::Found;
-using made::Grain;
+using made::Particle;
 using made::Scene;
 using made::Six;
 using made::sum_all;
@@ -29,7 +29,7 @@ double volume_of(double radius)
 Scene two_particles()
 {
   Scene scene;
-  scene.grains = { { 7, { 10, 20, 30 }, 1 }, { -4, { 14, 20, 30 }, 3 } };
+  scene.particles = { { 7, { 10, 20, 30 }, 1 }, { -4, { 14, 20, 30 }, 3 } };
   scene.pairs = { { 7, -4, { 10, 20, 30 }, { 14, 20, 30 }, { -8, 2, 0 } } };
   return scene;
 }
@@ -38,8 +38,8 @@ Scene two_particles()
 TEST(TwoParticles, TheForceActsWhereRadiiMeet)
 {
   const Found found = sum_all(two_particles());
-  const Sums& first = found.grains[0];
-  const Sums& second = found.grains[1];
+  const Sums& first = found.particles[0];
+  const Sums& second = found.particles[1];
   EXPECT_EQ(first.coordination, 1);
   EXPECT_EQ(first.force, (Vector3{ -8, 2, 0 }));
   EXPECT_EQ(second.force, (Vector3{ 8, -2, 0 }));
@@ -66,18 +66,18 @@ TEST(TwoParticles, HalfTheBranch)
   made::ContactSumsRequest request = everything();
   request.options.arm = made::LeverArm::Half;
   const Found half = sum_all(two_particles(), request);
-  EXPECT_EQ(half.grains[0].stress, (Six{ -16, 0, 0, 4, 0, 0 }));
-  EXPECT_EQ(half.grains[1].stress, half.grains[0].stress);
-  EXPECT_EQ(half.grains[0].torque, (Vector3{ 0, 0, 4 }));
+  EXPECT_EQ(half.particles[0].stress, (Six{ -16, 0, 0, 4, 0, 0 }));
+  EXPECT_EQ(half.particles[1].stress, half.particles[0].stress);
+  EXPECT_EQ(half.particles[0].torque, (Vector3{ 0, 0, 4 }));
   // nor does anything else tell where they touch
   Scene scene = two_particles();
   scene.radii = false;
   request = everything();
   request.principal_stress = request.von_mises = false;
-  EXPECT_EQ(sum_all(scene, request).grains[0].stress, half.grains[0].stress);
+  EXPECT_EQ(sum_all(scene, request).particles[0].stress, half.particles[0].stress);
   scene.radii = true;
-  scene.grains[0].radius = scene.grains[1].radius = 0;
-  EXPECT_EQ(sum_all(scene, request).grains[1].stress, half.grains[1].stress);
+  scene.particles[0].radius = scene.particles[1].radius = 0;
+  EXPECT_EQ(sum_all(scene, request).particles[1].stress, half.particles[1].stress);
 }
 
 TEST(TwoParticles, AContactPointBesideTheLine)
@@ -87,11 +87,11 @@ TEST(TwoParticles, AContactPointBesideTheLine)
   scene.pairs[0].point = { 11, 21, 30 };
   const Found found = sum_all(scene);
   // arms: (1, 1, 0) and (-3, 1, 0)
-  EXPECT_EQ(found.grains[0].stress, (Six{ -8, 2, 0, 2, 0, 0 }));
-  EXPECT_EQ(found.grains[1].stress, (Six{ -24, -2, 0, 6, 0, 0 }));
-  EXPECT_EQ(found.grains[0].torque, (Vector3{ 0, 0, 2 + 8 }));
-  EXPECT_EQ(found.grains[1].torque, (Vector3{ 0, 0, 6 - 8 }));
-  EXPECT_EQ(found.grains[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 })); // the normal is along the line
+  EXPECT_EQ(found.particles[0].stress, (Six{ -8, 2, 0, 2, 0, 0 }));
+  EXPECT_EQ(found.particles[1].stress, (Six{ -24, -2, 0, 6, 0, 0 }));
+  EXPECT_EQ(found.particles[0].torque, (Vector3{ 0, 0, 2 + 8 }));
+  EXPECT_EQ(found.particles[1].torque, (Vector3{ 0, 0, 6 - 8 }));
+  EXPECT_EQ(found.particles[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 })); // the normal is along the line
 }
 
 /// The given torque is that on the first; the other gets the rest of the moment of both forces: branch x force - torque.
@@ -105,8 +105,8 @@ TEST(TwoParticles, GivenTorques)
     scene.known.point = point;
     scene.pairs[0].point = { 11, 21, 30 };
     const Found found = sum_all(scene);
-    EXPECT_EQ(found.grains[0].torque, (Vector3{ 0.5, -0.25, 3 }));
-    EXPECT_EQ(found.grains[1].torque, (Vector3{ -0.5, 0.25, 8 - 3 }));
+    EXPECT_EQ(found.particles[0].torque, (Vector3{ 0.5, -0.25, 3 }));
+    EXPECT_EQ(found.particles[1].torque, (Vector3{ -0.5, 0.25, 8 - 3 }));
   }
 }
 
@@ -118,11 +118,11 @@ TEST(Chain, UnderTension)
   Scene scene;
   for (int i = 0; i < 8; ++i)
   {
-    scene.grains.push_back({ i, { i * step[0], i * step[1], i * step[2] }, 1.5 });
+    scene.particles.push_back({ i, { i * step[0], i * step[1], i * step[2] }, 1.5 });
     if (i > 0)
     {
-      scene.pairs.push_back({ i - 1, i, scene.grains[static_cast<std::size_t>(i) - 1].x,
-        scene.grains[static_cast<std::size_t>(i)].x, pull });
+      scene.pairs.push_back({ i - 1, i, scene.particles[static_cast<std::size_t>(i) - 1].x,
+        scene.particles[static_cast<std::size_t>(i)].x, pull });
     }
   }
   const Found found = sum_all(scene);
@@ -130,7 +130,7 @@ TEST(Chain, UnderTension)
   {
     const bool outermost = i == 0 || i == 7;
     const double part = outermost ? 0.5 : 1;
-    const Sums& sums = found.grains[i];
+    const Sums& sums = found.particles[i];
     EXPECT_EQ(sums.coordination, outermost ? 1 : 2);
     EXPECT_EQ(sums.force, i == 0 ? pull : i == 7 ? (Vector3{ -2, -4, -4 }) : Vector3{});
     EXPECT_EQ(sums.torque, Vector3{});
@@ -166,7 +166,7 @@ TEST(Lattice, UnderKnownForces)
     for (int i = 0; i < n * n * n; ++i)
     {
       const Vector3 x = { i / (n * n) * a, i / n % n * a, i % n * a };
-      scene.grains.push_back({ i, x, a / 2 });
+      scene.particles.push_back({ i, x, a / 2 });
       const std::array<int, 3> others = { id(i / (n * n) + 1, i / n % n, i % n),
         id(i / (n * n), i / n % n + 1, i % n), id(i / (n * n), i / n % n, i % n + 1) };
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -177,7 +177,7 @@ TEST(Lattice, UnderKnownForces)
       }
     }
     const Found found = sum_all(scene);
-    for (const Sums& sums : found.grains)
+    for (const Sums& sums : found.particles)
     {
       EXPECT_EQ(sums.coordination, 6);
       EXPECT_EQ(sums.backbone, 6);
@@ -201,13 +201,13 @@ TEST(Walls, FloorAndSide)
   for (const bool half : { false, true })
   {
     Scene scene;
-    scene.grains = { { 5, { 3, 4, 0.75 }, 1 } };
+    scene.particles = { { 5, { 3, 4, 0.75 }, 1 } };
     scene.walls = { { 0, 5, { 3, 4, 0 }, { 3, 4, 0.75 }, { 0, 2, 8 } },
       { 0, 5, { 2, 4, 0.75 }, { 3, 4, 0.75 }, { 1, 0, 0 } } };
     made::ContactSumsRequest request = everything();
     request.options.arm = half ? made::LeverArm::Half : made::LeverArm::ContactPoint;
     const Found found = sum_all(scene, request);
-    const Sums& sums = found.grains[0];
+    const Sums& sums = found.particles[0];
     EXPECT_EQ(sums.coordination, 2);
     EXPECT_EQ(sums.force, (Vector3{ 1, 2, 8 }));
     // arms: 0.75 down, and 1 to the left
@@ -227,9 +227,9 @@ TEST(Walls, GivenTorques)
 {
   Scene scene;
   scene.known.torque = true;
-  scene.grains = { { 5, { 3, 4, 0.75 }, 1 } };
+  scene.particles = { { 5, { 3, 4, 0.75 }, 1 } };
   scene.walls = { { 0, 5, { 3, 4, 0 }, { 3, 4, 0.75 }, { 0, 2, 8 }, {}, { 1, 2, 3 } } };
-  EXPECT_EQ(sum_all(scene).grains[0].torque, (Vector3{ 1, 2, 3 }));
+  EXPECT_EQ(sum_all(scene).particles[0].torque, (Vector3{ 1, 2, 3 }));
 }
 
 /// Rows without lines, but with the point that is touched, across a periodic face.
@@ -239,11 +239,11 @@ TEST(Walls, PointsAlone)
   scene.known.ends = false;
   scene.known.point = true;
   scene.box = made::periodic_box({ 0, 0, 0 }, { 8, 8, 8 }, "pp pp ff");
-  scene.grains = { { 5, { 7.5, 4, 0.75 }, 1 } };
+  scene.particles = { { 5, { 7.5, 4, 0.75 }, 1 } };
   scene.walls = { { 0, 5, {}, {}, { 0, 0, 8 }, {}, {}, { 0.25, 4, 0 } } };
   const Found found = sum_all(scene);
-  EXPECT_EQ(found.grains[0].stress, (Six{ 0, 0, -6, 0, 0.75 * 8, 0 }));
-  EXPECT_EQ(found.grains[0].force, (Vector3{ 0, 0, 8 }));
+  EXPECT_EQ(found.particles[0].stress, (Six{ 0, 0, -6, 0, 0.75 * 8, 0 }));
+  EXPECT_EQ(found.particles[0].force, (Vector3{ 0, 0, 8 }));
   // above the highest point of no wall
   scene.known.point = false;
   EXPECT_EQ(made::error_of(scene),
@@ -257,13 +257,13 @@ TEST(Thresholds, OfForceAndOverlap)
   scene.known.overlap = true;
   for (int i = 0; i < 4; ++i)
   {
-    scene.grains.push_back({ i, { 2. * i, 0, 0 }, 1 + i / 64. });
+    scene.particles.push_back({ i, { 2. * i, 0, 0 }, 1 + i / 64. });
   }
   for (int i = 0; i < 3; ++i)
   {
     const auto at = static_cast<std::size_t>(i);
-    scene.pairs.push_back({ i, i + 1, scene.grains[at].x, scene.grains[at + 1].x, { -1. - i, 0, 0 },
-      {}, {}, {}, 0.5 + i });
+    scene.pairs.push_back({ i, i + 1, scene.particles[at].x, scene.particles[at + 1].x,
+      { -1. - i, 0, 0 }, {}, {}, {}, 0.5 + i });
   }
   const auto coordination = [&](double force, double overlap)
   {
@@ -272,14 +272,14 @@ TEST(Thresholds, OfForceAndOverlap)
     request.options.least_overlap = overlap;
     const Found found = sum_all(scene, request);
     std::vector<int> all;
-    for (const Sums& sums : found.grains)
+    for (const Sums& sums : found.particles)
     {
       all.push_back(sums.coordination);
       EXPECT_EQ(sums.fabric[0], sums.coordination > 0 ? 1 : 0);
     }
-    EXPECT_EQ(found.grains[0].force, (Vector3{ -1, 0, 0 }));
-    EXPECT_EQ(found.grains[1].force, (Vector3{ -1, 0, 0 }));
-    EXPECT_NE(found.grains[3].stress[0], 0);
+    EXPECT_EQ(found.particles[0].force, (Vector3{ -1, 0, 0 }));
+    EXPECT_EQ(found.particles[1].force, (Vector3{ -1, 0, 0 }));
+    EXPECT_NE(found.particles[3].stress[0], 0);
     EXPECT_EQ(found.counts[1], all[0] + all[1] + all[2] + all[3]);
     return all;
   };
@@ -307,7 +307,7 @@ TEST(Contents, WithoutForces)
 {
   Scene scene = two_particles();
   scene.known.force = false;
-  const made::Frame frame(scene.grains, scene);
+  const made::Frame frame(scene.particles, scene);
   const made::Rows rows(scene.pairs, scene.known, false);
   granular::SerialCommunicator alone;
   granular::Progress progress;
@@ -329,7 +329,7 @@ TEST(Contents, WithoutForces)
 TEST(Contents, OnlyWhatIsAsked)
 {
   const Scene scene = two_particles();
-  const Sums all = sum_all(scene).grains[0];
+  const Sums all = sum_all(scene).particles[0];
   for (int kind = 0; kind < 6; ++kind)
   {
     made::ContactSumsRequest request;
@@ -339,7 +339,7 @@ TEST(Contents, OnlyWhatIsAsked)
     request.stress = kind == 3;
     request.principal_stress = kind == 4;
     request.von_mises = kind == 5;
-    const Sums sums = sum_all(scene, request).grains[0];
+    const Sums sums = sum_all(scene, request).particles[0];
     EXPECT_EQ(sums.coordination, 1);
     EXPECT_EQ(sums.force, kind == 0 ? all.force : Vector3{});
     EXPECT_EQ(sums.torque, kind == 1 ? all.torque : Vector3{});

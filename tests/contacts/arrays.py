@@ -37,7 +37,7 @@ for name in ("fabric", "contact_stress"):
 
 # ---- the particles as they are -----------------------------------------------------------------------------------------
 
-source = sums.grains.GetOutput()
+source = sums.particles.GetOutput()
 output = sums.filter.GetOutput()
 given = arrays_of(source.GetPointData())
 for name, values in given.items():
@@ -112,9 +112,9 @@ assert sums.filter.GetLinesOutput().GetNumberOfCells() == 0
 normal = bed_without("force", "force_tangential", "torque")
 normal.choose([name for name in NAMES if name != "mobilised_friction"])
 normal = made_by(normal)
-grains, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
+particles, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
     (plain.Particles, ""), (plain.Contacts, "_contacts"), (plain.Contacts, "_walls")))
-expected = sum(plain.add_up(grains, each, each.named["force_normal"], each.named["force_normal"] * sign)
+expected = sum(plain.add_up(particles, each, each.named["force_normal"], each.named["force_normal"] * sign)
                for each, sign in ((contacts, -1), (walls, 1)))
 assert abs(normal["contact_force"] - expected).max() < 1e-16
 # torques, contact points and overlaps that are not there change what depends on them, and nothing else
@@ -128,7 +128,7 @@ for words, changed in ((["torque"], {"contact_torque"}), (["delta"], set()),
 # ---- readers that leave out or shift -----------------------------------------------------------------------------------
 
 shifted = Sums("bed")
-for reader in (shifted.grains, shifted.contacts, shifted.walls):
+for reader in (shifted.particles, shifted.contacts, shifted.walls):
     reader.SetPointOrigin(0.25, -3, 1)
 found = made_by(shifted)
 for name in ("coordination", "contact_force", "rattler", "coordination_without_rattlers"):
@@ -137,7 +137,7 @@ for name in ("coordination", "contact_force", "rattler", "coordination_without_r
 for name in ("contact_stress", "contact_torque", "fabric", "principal_stress", "von_mises"):
     assert abs(found[name] - all_[name]).max() < 1e-9 * abs(all_[name]).max() + 1e-15, name
 # one of them alone: nothing is misplaced
-for reader in (shifted.grains, shifted.contacts):
+for reader in (shifted.particles, shifted.contacts):
     reader.SetPointOrigin(0, 0, 0)
 found = made_by(shifted)
 assert (found["contact_force"] == all_["contact_force"]).all()

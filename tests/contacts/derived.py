@@ -23,9 +23,9 @@ def length(vectors):
     return numpy.sqrt((vectors ** 2).sum(axis=1))
 
 
-def check_stresses(found, grains):
+def check_stresses(found, particles):
     """Principal values and equivalent stresses: those of the stress over the volume of the sphere."""
-    stress = matrices(found["contact_stress"] / (4 / 3 * numpy.pi * grains.radius ** 3)[:, None])
+    stress = matrices(found["contact_stress"] / (4 / 3 * numpy.pi * particles.radius ** 3)[:, None])
     values = numpy.linalg.eigvalsh(stress)[:, ::-1]
     scale = abs(values).max(axis=1)
     assert (abs(found["principal_stress"] - values) <= 2e-14 * scale[:, None]).all()
@@ -35,13 +35,13 @@ def check_stresses(found, grains):
     assert scale.max() > 100 and ((scale == 0) == (abs(found["contact_stress"]).max(axis=1) == 0)).all()
 
 
-def check_fabric(found, grains, parts):
+def check_fabric(found, particles, parts):
     """The mean of n_a n_b: parts are contacts and the vectors along them."""
-    sums, counts = numpy.zeros((len(grains.ids), 6)), numpy.zeros((len(grains.ids), 1))
+    sums, counts = numpy.zeros((len(particles.ids), 6)), numpy.zeros((len(particles.ids), 1))
     for contacts, branch in parts:
         normal = branch / length(branch)[:, None]
         of_each = numpy.hstack([plain.products(normal, normal), numpy.ones((contacts.count, 1))])
-        added = plain.add_up(grains, contacts, of_each, of_each)
+        added = plain.add_up(particles, contacts, of_each, of_each)
         sums, counts = sums + added[:, :6], counts + added[:, 6:]
     assert (found["coordination"] == counts[:, 0]).all()
     assert abs(found["fabric"] - sums / numpy.maximum(counts, 1)).max() < 1e-14
@@ -49,15 +49,15 @@ def check_fabric(found, grains, parts):
     assert abs(trace - (counts[:, 0] > 0)).max() < 1e-15 * 4
 
 
-def bearing(grains, parts, least):
+def bearing(particles, parts, least):
     """Coordination of what is left when those with fewer contacts are taken away, again and again; 0 for rattlers."""
-    stays = numpy.ones(len(grains.ids), dtype=bool)
+    stays = numpy.ones(len(particles.ids), dtype=bool)
     while True:
-        counts = numpy.zeros((len(grains.ids), 1), dtype=int)
+        counts = numpy.zeros((len(particles.ids), 1), dtype=int)
         for contacts, _ in parts:
-            ends = [grains.rows(ids) for ids in contacts.ids if ids is not None]
+            ends = [particles.rows(ids) for ids in contacts.ids if ids is not None]
             both = numpy.logical_and.reduce([stays[end] for end in ends])[:, None].astype(int)
-            counts += plain.add_up(grains, contacts, both, both).astype(int)
+            counts += plain.add_up(particles, contacts, both, both).astype(int)
         if (stays == (stays & (counts[:, 0] >= least))).all():
             return ~stays, counts[:, 0]
         stays &= counts[:, 0] >= least
@@ -66,30 +66,30 @@ def bearing(grains, parts, least):
 some = 0
 for name, step in BEDS + TILTED:
     rows = (name, step) in TILTED
-    grains, contacts = plain.Particles(name, step), plain.Contacts(name + "_contacts", step)
-    parts = [(contacts, plain.branches(grains, contacts)[0])]
+    particles, contacts = plain.Particles(name, step), plain.Contacts(name + "_contacts", step)
+    parts = [(contacts, plain.branches(particles, contacts)[0])]
     sums = Sums(name, walls=not rows, rows=rows)
     found = sums.update(step)
-    check_stresses(found, grains)
+    check_stresses(found, particles)
     if not rows:
         walls = plain.Contacts(name + "_walls", step)
         parts.append((walls, walls.ends[:, 1] - walls.ends[:, 0]))
-    check_fabric(found, grains, parts)
+    check_fabric(found, particles, parts)
     for least in (1, 2, 3, 4, 6, 100):
         sums.filter.SetRattlerContacts(least)
         found = sums.update(step)
-        rattler, coordination = bearing(grains, parts, least)
+        rattler, coordination = bearing(particles, parts, least)
         assert (found["rattler"] == rattler).all() and found["rattler"].dtype == numpy.uint8
         assert (found["coordination_without_rattlers"] == coordination).all()
-        left = len(grains.ids) - rattler.sum()
+        left = len(particles.ids) - rattler.sum()
         mean = coordination.sum() / left if left else 0
         assert abs(sums.field("mean_coordination_without_rattlers") - mean) < 1e-14
-        some += 0 < left < len(grains.ids)
+        some += 0 < left < len(particles.ids)
 assert some > 15
 
 # ---- thresholds --------------------------------------------------------------------------------------------------------
 
-grains, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
+particles, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
     (plain.Particles, ""), (plain.Contacts, "_contacts"), (plain.Contacts, "_walls")))
 for part in (0.2, 0.5, 0.9):
     for name, values in (("MinimumForce", [length(each.force) for each in (contacts, walls)]),
@@ -98,7 +98,7 @@ for part in (0.2, 0.5, 0.9):
         sums = Sums("bed", **{name: least})
         found = sums.update()
         ones = [(each >= least).astype(int)[:, None] for each in values]
-        expected = sum(plain.add_up(grains, each, one, one) for each, one in zip((contacts, walls), ones))[:, 0]
+        expected = sum(plain.add_up(particles, each, one, one) for each, one in zip((contacts, walls), ones))[:, 0]
         assert (found["coordination"] == expected).all() and 0 < expected.sum() < 2 * contacts.count
         assert sums.field("mean_coordination") == expected.sum() / 250
         # forces and stresses contain all
@@ -117,7 +117,7 @@ assert (without.update(3000)["coordination"] == with_delta["coordination"]).all(
 
 # ---- friction ----------------------------------------------------------------------------------------------------------
 
-grains, contacts = plain.Particles("bed", 70000), plain.Contacts("bed_contacts", 70000)
+particles, contacts = plain.Particles("bed", 70000), plain.Contacts("bed_contacts", 70000)
 sums = Sums("bed")
 sums.update()
 cells = sums.of_lines()
@@ -126,8 +126,8 @@ expected = length(contacts.named["force_tangential"]) / length(contacts.named["f
 # force - force_tangential has the digits of the file
 assert numpy.allclose(cells["mobilised_friction"], expected, rtol=1e-9, atol=1e-12)
 # no contact has more than coefficientFriction of its two types: 0.5, of type 2 with itself 0.3
-kinds = grains.frame.numbers("type")
-pair = [kinds[grains.rows(ids)] for ids in contacts.ids]
+kinds = particles.frame.numbers("type")
+pair = [kinds[particles.rows(ids)] for ids in contacts.ids]
 most = numpy.where((pair[0] == 2) & (pair[1] == 2), 0.3, 0.5)
 assert (cells["mobilised_friction"] <= most * (1 + 1e-9)).all() and (cells["mobilised_friction"] > 0.8 * most).any()
 sums.filter.SetFrictionCoefficient(0.5)
@@ -135,22 +135,22 @@ sums.update()
 assert (sums.of_lines()["mobilised_friction"] == cells["mobilised_friction"] / 0.5).all()
 # without the parts, by the lines' directions
 for name, step in BEDS[1:]:
-    grains, contacts = plain.Particles(name, step), plain.Contacts(name + "_contacts", step)
+    particles, contacts = plain.Particles(name, step), plain.Contacts(name + "_contacts", step)
     sums = Sums(name)
     sums.update(step)
-    branch = plain.branches(grains, contacts)[0]
+    branch = plain.branches(particles, contacts)[0]
     normal = branch / length(branch)[:, None]
     along = (contacts.force * normal).sum(axis=1)
     across = length(contacts.force - along[:, None] * normal)
     found = sums.of_lines()["mobilised_friction"]
     assert numpy.allclose(found, across / abs(along), rtol=1e-9, atol=1e-9)
-    pair = [grains.frame.numbers("type")[grains.rows(ids)] for ids in contacts.ids]
+    pair = [particles.frame.numbers("type")[particles.rows(ids)] for ids in contacts.ids]
     within = found <= numpy.where((pair[0] == 2) & (pair[1] == 2), 0.3, 0.5) * (1 + 1e-9)
-    assert within.all() == (name == "periodic_bed")  # while grains move, this program adds damping that the law does not limit
+    assert within.all() == (name == "periodic_bed")  # while particles move, this program adds damping that the law does not limit
     # the lines are those of the reader
     lines = sums.filter.GetLinesOutput()
     assert lines.GetNumberOfCells() == lines.GetNumberOfLines() == contacts.count
     ends = vtk_to_numpy(lines.GetPoints().GetData()).reshape(-1, 2, 3)
-    drawn = plain.nearest(contacts.ends[:, 1] - contacts.ends[:, 0], grains.vectors, contacts.periodic)[0]
+    drawn = plain.nearest(contacts.ends[:, 1] - contacts.ends[:, 0], particles.vectors, contacts.periodic)[0]
     assert (ends[:, 0] == contacts.ends[:, 0]).all() and abs(ends[:, 1] - ends[:, 0] - drawn).max() < 1e-17 * 4
 print("as numpy has them")

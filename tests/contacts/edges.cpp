@@ -34,7 +34,7 @@ using Counts =
 Scene two(Id id = 2)
 {
   Scene scene;
-  scene.grains = { { 1, { 0, 0, 0 }, 1 }, { id, { 2, 0, 0 }, 1 } };
+  scene.particles = { { 1, { 0, 0, 0 }, 1 }, { id, { 2, 0, 0 }, 1 } };
   scene.pairs = { { 1, id, { 0, 0, 0 }, { 2, 0, 0 }, { -4, 1, 0 } } };
   return scene;
 }
@@ -48,11 +48,11 @@ TEST(Edges, NothingAtAll)
   Scene scene = two();
   scene.pairs.clear();
   const Found lonely = sum_all(scene);
-  EXPECT_EQ(count_different(lonely.grains, { { .rattler = 1 }, { .rattler = 1 } }), 0);
+  EXPECT_EQ(count_different(lonely.particles, { { .rattler = 1 }, { .rattler = 1 } }), 0);
   EXPECT_EQ(lonely.counts, (Counts{ 2, 0, 2, 0, 0, 0, 0 }));
   // contacts without particles
   scene = two();
-  scene.grains.clear();
+  scene.particles.clear();
   EXPECT_EQ(sum_all(scene).counts, (Counts{ 0, 0, 0, 0, 1, 0, 0 }));
 }
 
@@ -62,19 +62,19 @@ TEST(Edges, MissingParticles)
   for (const std::size_t missing : { 0U, 1U })
   {
     Scene scene = two();
-    scene.grains.erase(scene.grains.begin() + static_cast<std::ptrdiff_t>(missing));
+    scene.particles.erase(scene.particles.begin() + static_cast<std::ptrdiff_t>(missing));
     Found found = sum_all(scene);
     const double sign = missing == 0 ? -1 : 1;
     EXPECT_EQ(found.counts, (Counts{ 1, 1, 1, 0, 1, 0, 0 }));
-    EXPECT_EQ(found.grains[0].coordination, 1);
-    EXPECT_EQ(found.grains[0].force, (Vector3{ -4 * sign, sign, 0 }));
-    EXPECT_EQ(found.grains[0].stress, (Six{ -4, 0, 0, 1, 0, 0 })); // half the line
+    EXPECT_EQ(found.particles[0].coordination, 1);
+    EXPECT_EQ(found.particles[0].force, (Vector3{ -4 * sign, sign, 0 }));
+    EXPECT_EQ(found.particles[0].stress, (Six{ -4, 0, 0, 1, 0, 0 })); // half the line
     EXPECT_EQ(found.friction[0], (std::vector<double>{ 0.25 }));
     scene.known.ends = false;
     scene.known.torque = true;
     found = sum_all(scene);
     const Sums alone = { .coordination = 1, .force = { -4 * sign, sign, 0 }, .rattler = 1 };
-    EXPECT_EQ(count_different(found.grains, { alone }), 0);
+    EXPECT_EQ(count_different(found.particles, { alone }), 0);
     EXPECT_EQ(found.counts, (Counts{ 1, 1, 1, 0, 1, 0, 0 }));
     EXPECT_TRUE(std::isnan(found.friction[0][0]));
   }
@@ -85,7 +85,7 @@ TEST(Edges, MissingParticles)
     { 0, 1, { 0, 0, -1 }, {}, { 0, 0, 1 } } };
   const Found found = sum_all(scene);
   EXPECT_EQ(found.counts, (Counts{ 2, 1, 2, 0, 1, 0, 0 }));
-  EXPECT_EQ(found.grains[0].force, (Vector3{ 0, 0, 1 }));
+  EXPECT_EQ(found.particles[0].force, (Vector3{ 0, 0, 1 }));
 }
 
 /// Nobody knows how far a particle that is not there overlaps with the other one: the contact counts.
@@ -94,12 +94,12 @@ TEST(Edges, OverlapWithMissingParticles)
   Scene scene = two();
   made::ContactSumsRequest request = everything();
   request.options.least_overlap = 1e9;
-  EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 0);
-  scene.grains.pop_back();
+  EXPECT_EQ(sum_all(scene, request).particles[0].coordination, 0);
+  scene.particles.pop_back();
   for (const bool ends : { true, false })
   {
     scene.known.ends = ends;
-    EXPECT_EQ(sum_all(scene, request).grains[0].coordination, 1);
+    EXPECT_EQ(sum_all(scene, request).particles[0].coordination, 1);
   }
 }
 
@@ -108,38 +108,39 @@ TEST(Edges, LinesAcrossPeriodicFaces)
 {
   Scene scene = two();
   scene.box = made::periodic_box({ 0, 0, 0 }, { 5, 5, 5 });
-  scene.grains[0].x = { 0.25, 0, 0 };
-  scene.grains[1].x = { 4.5, 0, 0 };
-  scene.pairs[0].from = scene.grains[0].x;
+  scene.particles[0].x = { 0.25, 0, 0 };
+  scene.particles[1].x = { 4.5, 0, 0 };
+  scene.pairs[0].from = scene.particles[0].x;
   scene.pairs[0].force = { 1, 0.5, 0 };
   for (const double drawn : { 4.5, -0.5, 9.5 })
   {
     scene.pairs[0].to = { drawn, 0, 0 };
-    for (const Sums& grain : sum_all(scene).grains)
+    for (const Sums& particle : sum_all(scene).particles)
     {
-      EXPECT_EQ(grain.stress, (Six{ -0.375, 0, 0, -0.1875, 0, 0 })); // half of -0.75 by the force
-      EXPECT_EQ(grain.fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
+      EXPECT_EQ(
+        particle.stress, (Six{ -0.375, 0, 0, -0.1875, 0, 0 })); // half of -0.75 by the force
+      EXPECT_EQ(particle.fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
     }
     for (const std::size_t missing : { 0U, 1U }) // the line and the box tell the same
     {
       Scene one = scene;
-      one.grains.erase(one.grains.begin() + static_cast<std::ptrdiff_t>(missing));
-      EXPECT_EQ(sum_all(one).grains[0].stress, (Six{ -0.375, 0, 0, -0.1875, 0, 0 }));
+      one.particles.erase(one.particles.begin() + static_cast<std::ptrdiff_t>(missing));
+      EXPECT_EQ(sum_all(one).particles[0].stress, (Six{ -0.375, 0, 0, -0.1875, 0, 0 }));
     }
   }
   // a drawn end at 10^6 has ten digits behind the point
   scene.box = made::periodic_box({ 0, 0, 0 }, { 1e6, 5, 5 });
-  scene.grains[0].x[0] = 1e6 - 1e-3;
-  scene.grains[1].x[0] = 1e-3;
-  scene.pairs[0].from = scene.grains[0].x;
+  scene.particles[0].x[0] = 1e6 - 1e-3;
+  scene.particles[1].x[0] = 1e-3;
+  scene.pairs[0].from = scene.particles[0].x;
   scene.pairs[0].to = { 1e-3 + 1e6, 0, 0 };
-  const double branch = (1e6 - scene.grains[0].x[0]) + 1e-3; // the difference is exact
+  const double branch = (1e6 - scene.particles[0].x[0]) + 1e-3; // the difference is exact
   EXPECT_NE(branch, scene.pairs[0].to[0] - scene.pairs[0].from[0]);
-  EXPECT_EQ(sum_all(scene).grains[0].stress, (Six{ branch / 2, 0, 0, branch / 4, 0, 0 }));
+  EXPECT_EQ(sum_all(scene).particles[0].stress, (Six{ branch / 2, 0, 0, branch / 4, 0, 0 }));
   // with a wall, whose place is written on the other side
   scene.pairs.clear();
-  scene.walls = { { 0, 1, { 0, 0, 0 }, scene.grains[0].x, { -1, 0, 0 } } };
-  EXPECT_EQ(sum_all(scene).grains[0].stress[0], scene.grains[0].x[0] - 1e6);
+  scene.walls = { { 0, 1, { 0, 0, 0 }, scene.particles[0].x, { -1, 0, 0 } } };
+  EXPECT_EQ(sum_all(scene).particles[0].stress[0], scene.particles[0].x[0] - 1e6);
 }
 
 /// The normal of a contact with a wall is that of its line, wherever the force acts.
@@ -153,7 +154,7 @@ TEST(Edges, NormalsOfWalls)
   for (const bool point : { false, true })
   {
     scene.known.point = point;
-    EXPECT_EQ(sum_all(scene).grains[0].fabric, (Six{ 0, 0, 1, 0, 0, 0 }));
+    EXPECT_EQ(sum_all(scene).particles[0].fabric, (Six{ 0, 0, 1, 0, 0, 0 }));
   }
 }
 
@@ -193,7 +194,7 @@ TEST(Edges, BrokenRows)
           member(rows[i]) = wrong;
         }
         const Found found = sum_all(broken);
-        hard.add(count_different(found.grains, whole.grains), std::ssize(scene.grains));
+        hard.add(count_different(found.particles, whole.particles), std::ssize(scene.particles));
         Counts counts = whole.counts;
         counts[5] = 5;
         EXPECT_EQ(found.counts, counts);
@@ -222,11 +223,11 @@ TEST(Edges, LargestAndSmallestNumbers)
     }
     const Found found = sum_all(scene);
     EXPECT_EQ(found.counts[5], 0);
-    EXPECT_EQ(found.grains[0].force, (Vector3{ -4 * number, 4 * number, 0 }));
-    EXPECT_EQ(found.grains[0].torque, (Vector3{ 4 * number, -4 * number, 4 * number }));
-    EXPECT_EQ(found.grains[0].stress[0], -4 * number * number);
-    EXPECT_EQ(found.grains[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
-    EXPECT_EQ(found.grains[1].torque[2], 4 * (2 * number * number - number));
+    EXPECT_EQ(found.particles[0].force, (Vector3{ -4 * number, 4 * number, 0 }));
+    EXPECT_EQ(found.particles[0].torque, (Vector3{ 4 * number, -4 * number, 4 * number }));
+    EXPECT_EQ(found.particles[0].stress[0], -4 * number * number);
+    EXPECT_EQ(found.particles[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
+    EXPECT_EQ(found.particles[1].torque[2], 4 * (2 * number * number - number));
   }
 }
 
@@ -241,9 +242,9 @@ TEST(Edges, ParticlesWithoutPlaceOrRadius)
       scene.known.ends = false;
       for (int i = 0; i < 40; ++i)
       {
-        scene.grains.push_back({ i, { 2. * i, 0, 0 }, 1 });
+        scene.particles.push_back({ i, { 2. * i, 0, 0 }, 1 });
       }
-      (place ? scene.grains[0].x[0] : scene.grains[0].radius) = wrong;
+      (place ? scene.particles[0].x[0] : scene.particles[0].radius) = wrong;
       for (int i = 0; i < 11400; ++i)
       {
         scene.pairs.push_back({ 0, 1 + i % 2, {}, {}, { 1e80, 0, 0 } });
@@ -251,11 +252,11 @@ TEST(Edges, ParticlesWithoutPlaceOrRadius)
       }
       const Found found = sum_all(scene);
       EXPECT_EQ(found.counts[5], 11400) << wrong << ' ' << place;
-      EXPECT_EQ(found.grains[0].coordination, 0);
+      EXPECT_EQ(found.particles[0].coordination, 0);
       for (std::size_t i = 2; i < 39; ++i)
       {
-        EXPECT_EQ(found.grains[i].force, Vector3{});
-        EXPECT_TRUE(std::isfinite(found.grains[i].stress[0])) << i;
+        EXPECT_EQ(found.particles[i].force, Vector3{});
+        EXPECT_TRUE(std::isfinite(found.particles[i].stress[0])) << i;
       }
     }
   }
@@ -266,24 +267,24 @@ TEST(Edges, ContactWithItself)
 {
   Scene scene;
   scene.box = made::periodic_box({ 0, 0, 0 }, { 2, 2, 2 });
-  scene.grains = { { 3, { 1, 1, 1 }, 1 } };
+  scene.particles = { { 3, { 1, 1, 1 }, 1 } };
   scene.pairs = { { 3, 3, { 1, 1, 1 }, { 3, 1, 1 }, { -5, 0.5, 0 } } };
   Found found = sum_all(scene);
-  EXPECT_EQ(found.grains[0].coordination, 2);
-  EXPECT_EQ(found.grains[0].backbone, 2);
-  EXPECT_EQ(found.grains[0].force, Vector3{});
-  EXPECT_EQ(found.grains[0].stress, (Six{ -10, 0, 0, 1, 0, 0 })); // branch times force
-  EXPECT_EQ(found.grains[0].torque, (Vector3{ 0, 0, 1 }));
-  EXPECT_EQ(found.grains[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
+  EXPECT_EQ(found.particles[0].coordination, 2);
+  EXPECT_EQ(found.particles[0].backbone, 2);
+  EXPECT_EQ(found.particles[0].force, Vector3{});
+  EXPECT_EQ(found.particles[0].stress, (Six{ -10, 0, 0, 1, 0, 0 })); // branch times force
+  EXPECT_EQ(found.particles[0].torque, (Vector3{ 0, 0, 1 }));
+  EXPECT_EQ(found.particles[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
   made::ContactSumsRequest request = everything();
   request.least_contacts = 3;
-  EXPECT_EQ(sum_all(scene, request).grains[0].rattler, 1);
+  EXPECT_EQ(sum_all(scene, request).particles[0].rattler, 1);
   // rows alone do not say through which face
   scene.known.ends = false;
   found = sum_all(scene);
-  EXPECT_EQ(found.grains[0].stress, Six{});
-  EXPECT_EQ(found.grains[0].fabric, Six{});
-  EXPECT_EQ(found.grains[0].coordination, 2);
+  EXPECT_EQ(found.particles[0].stress, Six{});
+  EXPECT_EQ(found.particles[0].fabric, Six{});
+  EXPECT_EQ(found.particles[0].coordination, 2);
 }
 
 /// Ends at one place: no normal, no stress; forces and the count are as ever, and the fabric is that of the others.
@@ -293,14 +294,14 @@ TEST(Edges, LinesWithoutLength)
   scene.pairs.push_back(scene.pairs[0]);
   scene.pairs[1].to = scene.pairs[1].from;
   const Found found = sum_all(scene);
-  EXPECT_EQ(found.grains[0].coordination, 2);
-  EXPECT_EQ(found.grains[0].force, (Vector3{ -8, 2, 0 }));
-  EXPECT_EQ(found.grains[0].stress, (Six{ -4, 0, 0, 1, 0, 0 }));
-  EXPECT_EQ(found.grains[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
+  EXPECT_EQ(found.particles[0].coordination, 2);
+  EXPECT_EQ(found.particles[0].force, (Vector3{ -8, 2, 0 }));
+  EXPECT_EQ(found.particles[0].stress, (Six{ -4, 0, 0, 1, 0, 0 }));
+  EXPECT_EQ(found.particles[0].fabric, (Six{ 1, 0, 0, 0, 0, 0 }));
   EXPECT_EQ(found.friction[0][1], infinity); // all of the force is across
   scene.pairs.erase(scene.pairs.begin());
-  EXPECT_EQ(sum_all(scene).grains[0].fabric, Six{});
-  EXPECT_EQ(sum_all(scene).grains[0].coordination, 1);
+  EXPECT_EQ(sum_all(scene).particles[0].fabric, Six{});
+  EXPECT_EQ(sum_all(scene).particles[0].coordination, 1);
   scene.pairs[0].force = {};
   EXPECT_EQ(sum_all(scene).friction[0][0], 0);
 }
@@ -311,10 +312,10 @@ TEST(Edges, AnyIds)
          std::numeric_limits<Id>::max(), (Id{ 1 } << 53) + 1, Id{ 1 } << 40 })
   {
     Scene scene = two(id);
-    scene.grains.push_back({ id == 0 ? 5 : id - (id > 0 ? 1 : -1), { 9, 9, 9 }, 1 });
+    scene.particles.push_back({ id == 0 ? 5 : id - (id > 0 ? 1 : -1), { 9, 9, 9 }, 1 });
     const Found found = sum_all(scene);
-    EXPECT_EQ(found.grains[1].force, (Vector3{ 4, -1, 0 })) << id;
-    EXPECT_EQ(found.grains[2].coordination, 0) << id;
+    EXPECT_EQ(found.particles[1].force, (Vector3{ 4, -1, 0 })) << id;
+    EXPECT_EQ(found.particles[2].coordination, 0) << id;
     EXPECT_EQ(found.counts[4], 0) << id;
   }
 }
@@ -323,17 +324,17 @@ TEST(Edges, AnyIds)
 TEST(Edges, Ghosts)
 {
   Scene scene = two();
-  scene.grains.insert(scene.grains.begin(), { 2, { 2, 0, 0 }, 1, 1 });
-  scene.grains.push_back({ 1, { 0, 0, 0 }, 1, 1 });
+  scene.particles.insert(scene.particles.begin(), { 2, { 2, 0, 0 }, 1, 1 });
+  scene.particles.push_back({ 1, { 0, 0, 0 }, 1, 1 });
   const Found found = sum_all(scene);
   const Found without = sum_all(two());
-  EXPECT_EQ(count_different({ found.grains[1], found.grains[2] }, without.grains), 0);
-  EXPECT_EQ(found.grains[0].force, Vector3{});
-  EXPECT_EQ(found.grains[0].coordination, 0);
+  EXPECT_EQ(count_different({ found.particles[1], found.particles[2] }, without.particles), 0);
+  EXPECT_EQ(found.particles[0].force, Vector3{});
+  EXPECT_EQ(found.particles[0].coordination, 0);
   EXPECT_EQ(found.counts, without.counts);
   // other bits of ghost values are no matter
-  scene.grains[0].ghost = 2;
-  EXPECT_EQ(sum_all(scene).grains[0].force, (Vector3{ 4, -1, 0 }));
+  scene.particles[0].ghost = 2;
+  EXPECT_EQ(sum_all(scene).particles[0].force, (Vector3{ 4, -1, 0 }));
   EXPECT_EQ(sum_all(scene).counts[6], 1);
 }
 
@@ -341,15 +342,16 @@ TEST(Edges, Ghosts)
 TEST(Edges, RepeatedIds)
 {
   Scene scene = two();
-  scene.grains.push_back(scene.grains[0]);
-  scene.grains.push_back(scene.grains[1]);
-  scene.grains.push_back(scene.grains[1]);
+  scene.particles.push_back(scene.particles[0]);
+  scene.particles.push_back(scene.particles[1]);
+  scene.particles.push_back(scene.particles[1]);
   const Found found = sum_all(scene);
   EXPECT_EQ(found.counts[6], 3);
   EXPECT_EQ(found.counts[0], 5);
-  EXPECT_EQ(count_different({ found.grains[0], found.grains[1] }, sum_all(two()).grains), 0);
   EXPECT_EQ(
-    count_different({ found.grains[2], found.grains[4] }, { { .rattler = 1 }, { .rattler = 1 } }),
+    count_different({ found.particles[0], found.particles[1] }, sum_all(two()).particles), 0);
+  EXPECT_EQ(count_different(
+              { found.particles[2], found.particles[4] }, { { .rattler = 1 }, { .rattler = 1 } }),
     0);
 }
 
@@ -406,7 +408,7 @@ TEST(Edges, WhatIsRefused)
 TEST(Edges, RowsThatDoNotFit)
 {
   const Scene scene = two();
-  const made::Frame frame(scene.grains, scene);
+  const made::Frame frame(scene.particles, scene);
   const made::Rows rows(scene.pairs, { true, true, true, true, true, true }, false);
   const auto error = [&](const std::vector<made::ContactRows>& inputs)
   {

@@ -18,36 +18,36 @@ def error(found, expected):
 half, pairs, all_, walls = ({name: Sums(name, **how) for name in ("bed", "periodic_bed", "moving")} for how in (
     {"walls": False, "LeverArm": 1}, {"walls": False}, {}, {"lines": False}))
 for name, step in BEDS:
-    grains = plain.Particles(name, step)
-    count = len(grains.ids)
+    particles = plain.Particles(name, step)
+    count = len(particles.ids)
 
     # compute stress/atom, its part of pairs, takes half the branch; compute contact/atom counts no walls
     found = half[name].update(step)
-    assert (found["id"] == grains.ids).all()
-    assert error(found["contact_stress"], grains.stress) < 1e-13
-    assert (found["coordination"] == grains.coordination).all() and found["coordination"].dtype == numpy.int32
-    assert half[name].field("mean_coordination") == grains.coordination.sum() / count
+    assert (found["id"] == particles.ids).all()
+    assert error(found["contact_stress"], particles.stress) < 1e-13
+    assert (found["coordination"] == particles.coordination).all() and found["coordination"].dtype == numpy.int32
+    assert half[name].field("mean_coordination") == particles.coordination.sum() / count
     # the contact point is elsewhere, but for spheres of one size
     of_points = pairs[name].update(step)
-    assert 1e-3 < error(of_points["contact_stress"], grains.stress) < 0.2
-    assert (of_points["coordination"] == grains.coordination).all()
-    assert error(of_points["contact_stress"].sum(axis=0), grains.stress.sum(axis=0)) < 1e-13
+    assert 1e-3 < error(of_points["contact_stress"], particles.stress) < 0.2
+    assert (of_points["coordination"] == particles.coordination).all()
+    assert error(of_points["contact_stress"].sum(axis=0), particles.stress.sum(axis=0)) < 1e-13
 
-    # all forces of a grain are those of its contacts, and its weight
+    # all forces of a particle are those of its contacts, and its weight
     found = all_[name].update(step)
-    with_weight = found["contact_force"] + numpy.outer(grains.mass, plain.GRAVITY)
-    assert abs(with_weight - grains.f).max() < 5e-15, abs(with_weight - grains.f).max()
+    with_weight = found["contact_force"] + numpy.outer(particles.mass, plain.GRAVITY)
+    assert abs(with_weight - particles.f).max() < 5e-15, abs(with_weight - particles.f).max()
     assert abs(found["contact_force"]).max() > 1e-3
     rows = plain.Contacts(name + "_walls", step)
-    touched = numpy.bincount(grains.rows(rows.ids[1]), minlength=count)
+    touched = numpy.bincount(particles.rows(rows.ids[1]), minlength=count)
     assert touched.sum() == rows.count > 0
-    assert (found["coordination"] == grains.coordination + touched).all()
+    assert (found["coordination"] == particles.coordination + touched).all()
 
     # walls alone: the forces that fix wall/gran stores
     found = walls[name].update(step)
     assert (found["coordination"] == touched).all()
     if name != "moving":
-        stored = grains.frame.stack([f"f_force_walls[{i}]" for i in (1, 2, 3)])
+        stored = particles.frame.stack([f"f_force_walls[{i}]" for i in (1, 2, 3)])
         assert abs(found["contact_force"] - stored).max() < 1e-17 and abs(stored).max() > 1e-3
 
 # at rest no torque is left, if the program tells that of each contact
@@ -57,36 +57,36 @@ assert abs(found["contact_torque"]).max() < 5e-11 < 1e-5 * largest
 some = pairs["bed"].update()
 assert abs(some["contact_torque"]).max() > 1e-8  # the walls' part
 # without these it is that of the force at the contact point, which is not quite where the program has it
-grains, contacts = plain.Particles("periodic_bed", 70000), plain.Contacts("periodic_bed_contacts", 70000)
+particles, contacts = plain.Particles("periodic_bed", 70000), plain.Contacts("periodic_bed_contacts", 70000)
 found = all_["periodic_bed"].update()
-arms = plain.nearest(contacts.named["contactPoint"] - contacts.ends[:, 0], grains.vectors, contacts.periodic)[0]
+arms = plain.nearest(contacts.named["contactPoint"] - contacts.ends[:, 0], particles.vectors, contacts.periodic)[0]
 assert abs(found["contact_torque"]).max() < 0.02 * abs(numpy.cross(arms, contacts.force)).max()
 
 # each torque by numpy
 for name, step in BEDS:
-    grains, contacts, rows = plain.Particles(name, step), plain.Contacts(name + "_contacts", step), plain.Contacts(name + "_walls", step)
+    particles, contacts, rows = plain.Particles(name, step), plain.Contacts(name + "_contacts", step), plain.Contacts(name + "_walls", step)
     found = all_[name].update(step)["contact_torque"]
-    branch = plain.branches(grains, contacts)[0]
+    branch = plain.branches(particles, contacts)[0]
     if name == "bed":
         first, of_walls = contacts.named["torque"], rows.named["torque"]
         second = numpy.cross(branch, contacts.force) - first
     else:
-        first_arm = branch * (grains.radius[grains.rows(contacts.ids[0])] / sum(
-            grains.radius[grains.rows(ids)] for ids in contacts.ids))[:, None]
+        first_arm = branch * (particles.radius[particles.rows(contacts.ids[0])] / sum(
+            particles.radius[particles.rows(ids)] for ids in contacts.ids))[:, None]
         second_arm = first_arm - branch
         if "contactPoint" in contacts.named:
-            first_arm, second_arm = (plain.nearest(contacts.named["contactPoint"] - grains.x[grains.rows(ids)], grains.vectors,
+            first_arm, second_arm = (plain.nearest(contacts.named["contactPoint"] - particles.x[particles.rows(ids)], particles.vectors,
                                                    contacts.periodic)[0] for ids in contacts.ids)
         first, second = numpy.cross(first_arm, contacts.force), numpy.cross(second_arm, -contacts.force)
         of_walls = numpy.cross(rows.ends[:, 0] - rows.ends[:, 1], rows.force)
-    expected = plain.add_up(grains, contacts, first, second) + plain.add_up(grains, rows, None, of_walls)
+    expected = plain.add_up(particles, contacts, first, second) + plain.add_up(particles, rows, None, of_walls)
     assert abs(found - expected).max() < 1e-14 * max(abs(first).max(), abs(of_walls).max()), name
 
-# dumped within a run: some grains have left the box, and their contacts have not. The lines are in the box, and those of
+# dumped within a run: some particles have left the box, and their contacts have not. The lines are in the box, and those of
 # the rows are between the images that are nearest to each other
 lines, rows = (Sums("moving_step", walls=False, rows=rows).update(3020) for rows in (False, True))
-grains = plain.Particles("moving_step", 3020)
-outside = (grains.x < grains.origin).any(axis=1) | (grains.x > grains.origin + numpy.diag(grains.vectors)).any(axis=1)
+particles = plain.Particles("moving_step", 3020)
+outside = (particles.x < particles.origin).any(axis=1) | (particles.x > particles.origin + numpy.diag(particles.vectors)).any(axis=1)
 assert outside.sum() == 4
 for name in ("coordination", "contact_force", "rattler", "coordination_without_rattlers"):
     assert (lines[name] == rows[name]).all(), name

@@ -35,7 +35,7 @@ using Six = std::array<double, 6>;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-struct Grain
+struct Particle
 {
   Id id = 0;
   Vector3 x = {};
@@ -43,7 +43,7 @@ struct Grain
   unsigned char ghost = 0;
 };
 
-/// A row of a file: between two grains, or of the grain id2 with a wall.
+/// A row of a file: between two particles, or of the particle id2 with a wall.
 struct Touch
 {
   Id id1 = 0;
@@ -70,7 +70,7 @@ struct Known
 
 struct Scene
 {
-  std::vector<Grain> grains;
+  std::vector<Particle> particles;
   std::vector<Touch> pairs;
   std::vector<Touch> walls;
   std::optional<Box> box = {};
@@ -126,18 +126,18 @@ private:
   std::vector<double> ends_, force_, tangential_, torque_, point_, overlap_;
 };
 
-/// The arrays of some grains.
+/// The arrays of some particles.
 class Frame
 {
 public:
-  Frame(const std::vector<Grain>& grains, const Scene& scene)
+  Frame(const std::vector<Particle>& particles, const Scene& scene)
   {
-    for (const Grain& grain : grains)
+    for (const Particle& particle : particles)
     {
-      ids_.push_back(grain.id);
-      points_.insert(points_.end(), grain.x.begin(), grain.x.end());
-      radii_.push_back(grain.radius);
-      ghosts_.push_back(grain.ghost);
+      ids_.push_back(particle.id);
+      points_.insert(points_.end(), particle.x.begin(), particle.x.end());
+      radii_.push_back(particle.radius);
+      ghosts_.push_back(particle.ghost);
     }
     view_.rows = std::ssize(ids_);
     view_.has_box = scene.box.has_value();
@@ -164,7 +164,7 @@ private:
   granular::FrameView view_;
 };
 
-/// What is found for a grain.
+/// What is found for a particle.
 struct Sums
 {
   std::int32_t coordination = 0;
@@ -178,7 +178,7 @@ struct Sums
   std::int32_t backbone = 0;
 };
 
-/// The numbers of a grain as bits: -0 is not 0, and nan is nan.
+/// The numbers of a particle as bits: -0 is not 0, and nan is nan.
 inline std::vector<std::uint64_t> bits_of(const Sums& sums)
 {
   std::vector<std::uint64_t> bits = { static_cast<std::uint64_t>(sums.coordination),
@@ -201,7 +201,7 @@ inline std::vector<std::uint64_t> bits_of(const Sums& sums)
 
 struct Found
 {
-  std::vector<Sums> grains;                    ///< in the order of the scene
+  std::vector<Sums> particles;                 ///< in the order of the scene
   std::array<std::vector<double>, 2> friction; ///< of pairs and walls, in their order
   std::array<std::int64_t, 7> counts = {};     ///< see counts_of
 };
@@ -245,12 +245,12 @@ void take(const granular::Block& block, std::size_t row, std::size_t width, To* 
   }
 }
 
-/// Stores the sums of a rank's grains, whose places in the scene are listed.
+/// Stores the sums of a rank's particles, whose places in the scene are listed.
 inline void store(const ContactSums& sums, const std::vector<std::size_t>& places, Found& found)
 {
   for (std::size_t row = 0; row < places.size(); ++row)
   {
-    Sums& to = found.grains[places[row]];
+    Sums& to = found.particles[places[row]];
     take(sums.coordination, row, 1, &to.coordination, std::int32_t());
     take(sums.force, row, 3, to.force.data(), double());
     take(sums.torque, row, 3, to.torque.data(), double());
@@ -308,11 +308,11 @@ std::vector<Thing> part_of(const std::vector<Thing>& all, const Place& place,
 }
 
 /// The sums of the part of a scene that this rank has. The lock is that of all ranks of this process, or null.
-inline void sum_part(const Scene& scene, const ContactSumsRequest& request, const Place& grains,
+inline void sum_part(const Scene& scene, const ContactSumsRequest& request, const Place& particles,
   const Place& touches, granular::Communicator& ranks, Found& found, std::mutex* lock)
 {
   std::vector<std::size_t> places;
-  const Frame frame(part_of(scene.grains, grains, ranks, &places), scene);
+  const Frame frame(part_of(scene.particles, particles, ranks, &places), scene);
   std::array<std::vector<std::size_t>, 2> rows;
   const Rows pairs(part_of(scene.pairs, touches, ranks, &rows[0]), scene.known, false);
   const Rows walls(part_of(scene.walls, touches, ranks, &rows[1]), scene.known, true);
@@ -333,7 +333,7 @@ inline void sum_part(const Scene& scene, const ContactSumsRequest& request, cons
 inline Found empty_for(const Scene& scene)
 {
   Found found;
-  found.grains.resize(scene.grains.size());
+  found.particles.resize(scene.particles.size());
   found.friction[0].resize(scene.pairs.size());
   found.friction[1].resize(scene.walls.size());
   return found;
@@ -348,14 +348,14 @@ inline Found sum_all(const Scene& scene, const ContactSumsRequest& request = eve
 }
 
 /// The same by threads that are ranks.
-inline Found sum_spread(const Scene& scene, int size, const Place& grains, const Place& touches,
+inline Found sum_spread(const Scene& scene, int size, const Place& particles, const Place& touches,
   const ContactSumsRequest& request = everything())
 {
   Found found = empty_for(scene);
   std::mutex lock;
   run_ranks(size,
     [&](granular::Communicator& ranks)
-    { sum_part(scene, request, grains, touches, ranks, found, &lock); });
+    { sum_part(scene, request, particles, touches, ranks, found, &lock); });
   return found;
 }
 

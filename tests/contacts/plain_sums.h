@@ -19,7 +19,7 @@ namespace made
 /// All of the numbers are fractions with few bits, so that branches, arms and products are exact.
 struct SceneForm
 {
-  std::size_t grains = 200;
+  std::size_t particles = 200;
   std::size_t pairs = 600;
   std::size_t walls = 80;
   Known known = {};
@@ -59,7 +59,7 @@ inline Vector3 random_force(std::mt19937_64& random, int powers)
 }
 
 inline Touch random_touch(
-  const Grain& first, const Grain& second, const SceneForm& form, std::mt19937_64& random)
+  const Particle& first, const Particle& second, const SceneForm& form, std::mt19937_64& random)
 {
   Touch touch;
   touch.id1 = first.id;
@@ -89,17 +89,17 @@ inline Scene make_scene(const SceneForm& form, unsigned seed)
   {
     scene.box = periodic_box({ 0, 0, 0 }, { period, period, period });
   }
-  for (std::size_t i = 0; i < form.grains; ++i)
+  for (std::size_t i = 0; i < form.particles; ++i)
   {
     const Id id = form.far_ids ? static_cast<Id>((random() << 10) + i) : static_cast<Id>(i) - 5;
-    scene.grains.push_back({ id, random_place(random), random() % 2 == 0 ? 1. : 3. });
+    scene.particles.push_back({ id, random_place(random), random() % 2 == 0 ? 1. : 3. });
   }
   if (form.far_ids)
   {
-    scene.grains.front().id = std::numeric_limits<Id>::min();
-    scene.grains.back().id = std::numeric_limits<Id>::max();
+    scene.particles.front().id = std::numeric_limits<Id>::min();
+    scene.particles.back().id = std::numeric_limits<Id>::max();
   }
-  const auto any = [&]() -> const Grain& { return scene.grains[random() % form.grains]; };
+  const auto any = [&]() -> const Particle& { return scene.particles[random() % form.particles]; };
   for (std::size_t i = 0; i < form.pairs; ++i)
   {
     scene.pairs.push_back(random_touch(any(), any(), form, random));
@@ -118,21 +118,22 @@ inline Scene make_scene(const SceneForm& form, unsigned seed)
   {
     (i % 2 == 0 ? scene.pairs[i].id1 : scene.pairs[i].id2) = 1'000'000 + static_cast<Id>(i);
   }
-  std::vector<Grain> ghosts;
-  for (std::size_t i = 0; form.ghosts && i < scene.grains.size(); i += 3)
+  std::vector<Particle> ghosts;
+  for (std::size_t i = 0; form.ghosts && i < scene.particles.size(); i += 3)
   {
-    Grain ghost = scene.grains[i];
+    Particle ghost = scene.particles[i];
     ghost.ghost = 1;
     ghost.x[0] += 100;
     ghosts.push_back(ghost);
   }
-  scene.grains.insert(scene.grains.end() - static_cast<std::ptrdiff_t>(scene.grains.size() / 2),
-    ghosts.begin(), ghosts.end());
+  scene.particles.insert(
+    scene.particles.end() - static_cast<std::ptrdiff_t>(scene.particles.size() / 2), ghosts.begin(),
+    ghosts.end());
   std::ranges::shuffle(scene.pairs, random);
   return scene;
 }
 
-/// The sums of a grain as integers.
+/// The sums of a particle as integers.
 struct PlainSums
 {
   std::int32_t coordination = 0;
@@ -193,43 +194,45 @@ inline void add_end(PlainSums& to, const Vector3& arm, const Vector3& normal, co
   }
 }
 
-/// The sums of all grains, each rounded once. Contacts count where `counts(touch)`.
+/// The sums of all particles, each rounded once. Contacts count where `counts(touch)`.
 template <class Counts>
 std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& counts)
 {
-  std::map<Id, std::size_t> grain_of; // the first that is no ghost
-  for (std::size_t i = 0; i < scene.grains.size(); ++i)
+  std::map<Id, std::size_t> particle_of; // the first that is no ghost
+  for (std::size_t i = 0; i < scene.particles.size(); ++i)
   {
-    if (scene.grains[i].ghost == 0)
+    if (scene.particles[i].ghost == 0)
     {
-      grain_of.emplace(scene.grains[i].id, i);
+      particle_of.emplace(scene.particles[i].id, i);
     }
   }
-  std::vector<PlainSums> sums(scene.grains.size());
+  std::vector<PlainSums> sums(scene.particles.size());
   const bool use_point = scene.known.point && lever == LeverArm::ContactPoint;
   for (const Touch& touch : scene.pairs)
   {
-    const auto first = grain_of.find(touch.id1);
-    const auto second = grain_of.find(touch.id2);
-    const bool line = scene.known.ends || (first != grain_of.end() && second != grain_of.end());
+    const auto first = particle_of.find(touch.id1);
+    const auto second = particle_of.find(touch.id2);
+    const bool line =
+      scene.known.ends || (first != particle_of.end() && second != particle_of.end());
     const Vector3 branch = line ? minus(touch.to, touch.from) : Vector3{};
     double part = 0.5;
-    if (lever == LeverArm::ContactPoint && first != grain_of.end() && second != grain_of.end())
+    if (lever == LeverArm::ContactPoint && first != particle_of.end() &&
+      second != particle_of.end())
     {
-      const double radius = scene.grains[first->second].radius;
-      part = radius / (radius + scene.grains[second->second].radius);
+      const double radius = scene.particles[first->second].radius;
+      part = radius / (radius + scene.particles[second->second].radius);
     }
     const auto share = [&](double of) {
       return Vector3{ of * branch[0], of * branch[1], of * branch[2] };
     };
-    if (first != grain_of.end())
+    if (first != particle_of.end())
     {
       const Vector3 arm =
         use_point && line ? seen_from(touch.from, touch.point, scene) : share(part);
       add_end(sums[first->second], arm, branch, touch.force,
         scene.known.torque && line ? touch.torque : moment(arm, touch.force), counts(touch));
     }
-    if (second != grain_of.end())
+    if (second != particle_of.end())
     {
       const Vector3 arm =
         use_point && line ? seen_from(touch.to, touch.point, scene) : share(part - 1);
@@ -246,11 +249,11 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
       use_point || !scene.known.ends; // without lines nothing else says where it is
     const Vector3 arm =
       point ? seen_from(touch.to, touch.point, scene) : minus(touch.from, touch.to);
-    const auto grain = grain_of.find(touch.id2);
-    if (grain != grain_of.end())
+    const auto particle = particle_of.find(touch.id2);
+    if (particle != particle_of.end())
     {
       const Vector3 normal = scene.known.ends ? minus(touch.from, touch.to) : arm;
-      add_end(sums[grain->second], arm, normal, touch.force,
+      add_end(sums[particle->second], arm, normal, touch.force,
         scene.known.torque ? touch.torque : moment(arm, touch.force), counts(touch));
     }
   }

@@ -11,8 +11,8 @@
 #include <vector>
 
 using made::Found;
-using made::Grain;
 using made::Id;
+using made::Particle;
 using made::Scene;
 using made::Touch;
 
@@ -31,9 +31,9 @@ struct Expected
 Expected removed(const Scene& scene, int least, double least_force)
 {
   std::map<Id, std::size_t> place_of;
-  for (std::size_t i = 0; i < scene.grains.size(); ++i)
+  for (std::size_t i = 0; i < scene.particles.size(); ++i)
   {
-    place_of.emplace(scene.grains[i].id, i);
+    place_of.emplace(scene.particles[i].id, i);
   }
   const auto place = [&](Id id)
   {
@@ -56,10 +56,10 @@ Expected removed(const Scene& scene, int least, double least_force)
     }
   }
   Expected expected;
-  expected.rattlers.assign(scene.grains.size(), 0);
+  expected.rattlers.assign(scene.particles.size(), 0);
   while (true)
   {
-    expected.backbone.assign(scene.grains.size(), 0);
+    expected.backbone.assign(scene.particles.size(), 0);
     const auto stays = [&](std::size_t i) { return i == nobody || expected.rattlers[i] == 0; };
     for (const auto& [a, b] : contacts)
     {
@@ -72,11 +72,11 @@ Expected removed(const Scene& scene, int least, double least_force)
       }
     }
     std::size_t next = 0;
-    while (next < scene.grains.size() && (!stays(next) || expected.backbone[next] >= least))
+    while (next < scene.particles.size() && (!stays(next) || expected.backbone[next] >= least))
     {
       ++next;
     }
-    if (next == scene.grains.size())
+    if (next == scene.particles.size())
     {
       return expected;
     }
@@ -84,16 +84,16 @@ Expected removed(const Scene& scene, int least, double least_force)
   }
 }
 
-Scene random_scene(std::size_t grains, std::size_t pairs, std::size_t walls, unsigned seed)
+Scene random_scene(std::size_t particles, std::size_t pairs, std::size_t walls, unsigned seed)
 {
   std::mt19937_64 random(seed);
   Scene scene;
-  for (std::size_t i = 0; i < grains; ++i)
+  for (std::size_t i = 0; i < particles; ++i)
   {
-    scene.grains.push_back({ static_cast<Id>(3 * i) - 50, {}, 1 });
+    scene.particles.push_back({ static_cast<Id>(3 * i) - 50, {}, 1 });
   }
   // some are not there, some touch themselves, and some touch twice
-  const auto any = [&] { return static_cast<Id>(3 * (random() % (grains + 2))) - 50; };
+  const auto any = [&] { return static_cast<Id>(3 * (random() % (particles + 2))) - 50; };
   const auto force = [&] { return made::Vector3{ static_cast<double>(random() % 8), 0, 0 }; };
   for (std::size_t i = 0; i < pairs; ++i)
   {
@@ -111,10 +111,10 @@ void expect_same(const Found& found, const Expected& expected)
   std::int64_t rattling = 0;
   std::int64_t bearing = 0;
   int different = 0;
-  for (std::size_t i = 0; i < found.grains.size(); ++i)
+  for (std::size_t i = 0; i < found.particles.size(); ++i)
   {
-    different += found.grains[i].rattler != expected.rattlers[i] ? 1 : 0;
-    different += found.grains[i].backbone != expected.backbone[i] ? 1 : 0;
+    different += found.particles[i].rattler != expected.rattlers[i] ? 1 : 0;
+    different += found.particles[i].backbone != expected.backbone[i] ? 1 : 0;
     rattling += expected.rattlers[i];
     bearing += expected.backbone[i];
   }
@@ -175,7 +175,7 @@ TEST(Rattlers, ByHand)
   Scene scene;
   for (Id id = 0; id < 15; ++id)
   {
-    scene.grains.push_back({ id, {}, 1 });
+    scene.particles.push_back({ id, {}, 1 });
   }
   const auto join = [&](Id a, Id b) { scene.pairs.push_back({ a, b, {}, { 1, 0, 0 } }); };
   const auto fix = [&](Id a) { scene.walls.push_back({ 0, a, {}, { 1, 0, 0 } }); };
@@ -200,10 +200,10 @@ TEST(Rattlers, ByHand)
   const std::vector<int> backbone = { 2, 2, 2, 2, 0, 0, 2, 2, 2, 0, 0, 0, 0, 2, 0 };
   for (std::size_t i = 0; i < 15; ++i)
   {
-    EXPECT_EQ(found.grains[i].rattler, rattlers[i]) << i;
-    EXPECT_EQ(found.grains[i].backbone, backbone[i]) << i;
+    EXPECT_EQ(found.particles[i].rattler, rattlers[i]) << i;
+    EXPECT_EQ(found.particles[i].backbone, backbone[i]) << i;
   }
-  EXPECT_EQ(found.grains[0].coordination, 3);
+  EXPECT_EQ(found.particles[0].coordination, 3);
   EXPECT_EQ(found.counts, (std::array<std::int64_t, 7>{ 15, 26, 7, 16, 0, 0, 0 }));
 }
 
@@ -212,17 +212,17 @@ TEST(Rattlers, Ghosts)
 {
   Scene scene = random_scene(40, 70, 5, 7);
   const Expected expected = removed(scene, 3, 0);
-  const std::size_t own = scene.grains.size();
+  const std::size_t own = scene.particles.size();
   for (std::size_t i = 0; i < own; i += 2)
   {
-    Grain ghost = scene.grains[i];
+    Particle ghost = scene.particles[i];
     ghost.ghost = 1;
-    scene.grains.push_back(ghost);
+    scene.particles.push_back(ghost);
   }
   for (const int ranks : { 1, 3 })
   {
     Found found = sum_spread(scene, ranks, made::anywhere, made::anywhere, request_for(3));
-    found.grains.resize(own);
+    found.particles.resize(own);
     expect_same(found, expected);
   }
 }

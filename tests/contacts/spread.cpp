@@ -61,7 +61,7 @@ int count_on_ranks(const Scene& scene, const Found& expected, int size,
   {
     EXPECT_EQ(bits_of_all(found.friction[input]), bits_of_all(expected.friction[input])) << size;
   }
-  return count_different(found.grains, expected.grains);
+  return count_different(found.particles, expected.particles);
 }
 }
 
@@ -88,8 +88,8 @@ TEST(Spread, RandomScenes)
       {
         scene.pairs[i].force[i % 3] = made::no_number;
       }
-      scene.grains[3].x[1] = made::no_number;
-      scene.grains[4].radius = made::infinity;
+      scene.particles[3].x[1] = made::no_number;
+      scene.particles[4].radius = made::infinity;
       made::ContactSumsRequest request = everything();
       request.least_contacts = 4;
       request.options.least_overlap = point ? 0.25 : 0;
@@ -101,7 +101,8 @@ TEST(Spread, RandomScenes)
         for (const int size : sizes)
         {
           request.threads = 1 + size % 2;
-          hard.add(count_on_ranks(scene, expected, size, place, request), std::ssize(scene.grains));
+          hard.add(
+            count_on_ranks(scene, expected, size, place, request), std::ssize(scene.particles));
         }
       }
     }
@@ -116,11 +117,11 @@ TEST(Spread, RepeatedIds)
   Scene scene = make_scene(form, 7);
   for (std::size_t i = 0; i < 30; ++i)
   {
-    scene.grains[199 - i].id = scene.grains[2 * i].id;
+    scene.particles[199 - i].id = scene.particles[2 * i].id;
   }
   const Found expected = sum_all(scene);
   EXPECT_EQ(expected.counts[6], 30);
-  const std::size_t all = scene.grains.size();
+  const std::size_t all = scene.particles.size();
   const Place stretches = [all](std::size_t i, int ranks)
   { return static_cast<int>(i * static_cast<std::size_t>(ranks) / all); };
   for (const int size : sizes)
@@ -137,11 +138,11 @@ TEST(Spread, NothingAnywhere)
     EXPECT_EQ(sum_spread({}, size, made::on_first, made::on_first).counts, sum_all({}).counts);
     // one particle, one contact, each on the other side
     Scene scene;
-    scene.grains = { { -7, { 1, 1, 1 }, 1 } };
+    scene.particles = { { -7, { 1, 1, 1 }, 1 } };
     scene.walls = { { 0, -7, { 1, 1, 0 }, { 1, 1, 1 }, { 0, 0, 3 } } };
     const Found found = sum_spread(scene, size, made::on_first, made::on_last);
-    EXPECT_EQ(count_different(found.grains, sum_all(scene).grains), 0);
-    EXPECT_EQ(found.grains[0].force[2], 3);
+    EXPECT_EQ(count_different(found.particles, sum_all(scene).particles), 0);
+    EXPECT_EQ(found.particles[0].force[2], 3);
   }
 }
 
@@ -151,7 +152,7 @@ TEST(Spread, LongChains)
   Scene scene;
   for (int i = 0; i < 400; ++i)
   {
-    scene.grains.push_back({ i, { 1. * i, 0, 0 }, 0.5 });
+    scene.particles.push_back({ i, { 1. * i, 0, 0 }, 0.5 });
     if (i > 0)
     {
       scene.pairs.push_back({ i - 1, i, { i - 1., 0, 0 }, { 1. * i, 0, 0 }, { -1, 0, 0 } });
@@ -250,7 +251,7 @@ TEST(Spread, Cancelled)
     run_ranks(3,
       [&](granular::Communicator& ranks)
       {
-        const made::Frame frame(part_of(scene.grains, made::in_turn, ranks), scene);
+        const made::Frame frame(part_of(scene.particles, made::in_turn, ranks), scene);
         const made::Rows pairs(part_of(scene.pairs, made::anywhere, ranks), scene.known, false);
         const std::array<made::ContactRows, 1> inputs = { pairs.view() };
         Stop stop;

@@ -79,13 +79,14 @@ TEST(ContactSums, RandomScenes)
         form.cancel = seed % 5 == 0;
         const Scene scene = make_scene(form, ++seed);
         const made::Found found = sum_all(scene, plain_request(lever));
-        hard.add(count_different(found.grains, plain_sums(scene, lever)), std::ssize(scene.grains));
+        hard.add(
+          count_different(found.particles, plain_sums(scene, lever)), std::ssize(scene.particles));
       }
     }
   }
 }
 
-TEST(ContactSums, AnyOrderOfRowsAndGrains)
+TEST(ContactSums, AnyOrderOfRowsAndParticles)
 {
   std::mt19937_64 random(3);
   for (const Known& known : all_kinds())
@@ -94,13 +95,13 @@ TEST(ContactSums, AnyOrderOfRowsAndGrains)
     form.known = known;
     form.cancel = known.torque;
     const Scene scene = make_scene(form, 17);
-    const std::vector<Sums> expected = sum_all(scene).grains;
+    const std::vector<Sums> expected = sum_all(scene).particles;
     Scene other = scene;
     std::ranges::shuffle(other.pairs, random);
     std::ranges::reverse(other.walls);
-    EXPECT_EQ(count_different(sum_all(other).grains, expected), 0);
-    std::ranges::reverse(other.grains);
-    std::vector<Sums> reversed = sum_all(other).grains;
+    EXPECT_EQ(count_different(sum_all(other).particles, expected), 0);
+    std::ranges::reverse(other.particles);
+    std::vector<Sums> reversed = sum_all(other).particles;
     std::ranges::reverse(reversed);
     EXPECT_EQ(count_different(reversed, expected), 0);
   }
@@ -115,15 +116,15 @@ TEST(ContactSums, SwappedEnds)
     form.known = known;
     form.known.torque = false; // or else the rows name that on the first
     const Scene scene = make_scene(form, 18);
-    EXPECT_EQ(count_different(sum_all(swapped(scene)).grains, sum_all(scene).grains), 0);
+    EXPECT_EQ(count_different(sum_all(swapped(scene)).particles, sum_all(scene).particles), 0);
   }
 }
 
 TEST(ContactSums, AnyNumberOfThreadsAndMemory)
 {
   SceneForm form;
-  form.grains = 5000; // several blocks
-  form.pairs = 80000; // and stretches
+  form.particles = 5000; // several blocks
+  form.pairs = 80000;    // and stretches
   form.walls = 3000;
   for (const bool ends : { true, false })
   {
@@ -132,14 +133,15 @@ TEST(ContactSums, AnyNumberOfThreadsAndMemory)
     const Scene scene = make_scene(form, 19);
     made::ContactSumsRequest request = made::everything();
     const made::Found expected = sum_all(scene, request);
-    EXPECT_EQ(count_different(sum_all(scene, plain_request()).grains, plain_sums(scene)), 0);
+    EXPECT_EQ(count_different(sum_all(scene, plain_request()).particles, plain_sums(scene)), 0);
     for (const auto& [threads, memory] :
       { std::pair{ 2, request.memory }, { 3, 500'000 }, { 4, 1'000'000 }, { 1, 0 } })
     {
       request.threads = threads;
       request.memory = memory;
       const made::Found found = sum_all(scene, request);
-      EXPECT_EQ(count_different(found.grains, expected.grains), 0) << threads << ", " << memory;
+      EXPECT_EQ(count_different(found.particles, expected.particles), 0)
+        << threads << ", " << memory;
       EXPECT_EQ(found.friction, expected.friction);
       EXPECT_EQ(found.counts, expected.counts);
     }
@@ -155,7 +157,7 @@ TEST(ContactSums, Thresholds)
   const Scene scene = make_scene(form, 20);
   made::ContactSumsRequest request = plain_request();
   request.options.least_overlap = 0.5;
-  EXPECT_EQ(count_different(sum_all(scene, request).grains,
+  EXPECT_EQ(count_different(sum_all(scene, request).particles,
               plain_sums(scene, LeverArm::ContactPoint,
                 [](const Touch& touch) { return touch.overlap >= 0.5; })),
     0);
@@ -166,8 +168,8 @@ TEST(ContactSums, Thresholds)
     const auto& [x, y, z] = touch.force;
     return x * x + y * y + z * z >= 1;
   };
-  EXPECT_EQ(count_different(
-              sum_all(scene, request).grains, plain_sums(scene, LeverArm::ContactPoint, is_large)),
+  EXPECT_EQ(count_different(sum_all(scene, request).particles,
+              plain_sums(scene, LeverArm::ContactPoint, is_large)),
     0);
 }
 
@@ -179,7 +181,7 @@ TEST(ContactSums, AMillionContactsOfOneParticle)
     "bits than exact sums",
     "particles", 0);
   SceneForm form;
-  form.grains = 40;
+  form.particles = 40;
   form.pairs = 500000;
   form.walls = 0;
   form.powers = 3;
@@ -187,15 +189,15 @@ TEST(ContactSums, AMillionContactsOfOneParticle)
   Scene scene = make_scene(form, 21);
   for (Touch& touch : scene.pairs)
   {
-    touch.id1 = scene.grains[0].id;
-    const made::Vector3 branch = made::seen_from(scene.grains[0].x, touch.to, scene);
+    touch.id1 = scene.particles[0].id;
+    const made::Vector3 branch = made::seen_from(scene.particles[0].x, touch.to, scene);
     touch.from = made::minus(touch.to, branch);
   }
   scene.pairs[777].force[0] += 0x1p-20;
   const made::Found found = sum_all(scene, plain_request(LeverArm::ContactPoint, 2));
-  EXPECT_GE(found.grains[0].coordination, 1000000);
-  EXPECT_EQ(found.grains[0].force[0], 0x1p-20);
-  EXPECT_EQ(found.grains[0].force[1], 0);
-  EXPECT_EQ(found.grains[0].force[2], 0);
-  hard.add(count_different(found.grains, plain_sums(scene)), 40);
+  EXPECT_GE(found.particles[0].coordination, 1000000);
+  EXPECT_EQ(found.particles[0].force[0], 0x1p-20);
+  EXPECT_EQ(found.particles[0].force[1], 0);
+  EXPECT_EQ(found.particles[0].force[2], 0);
+  hard.add(count_different(found.particles, plain_sums(scene)), 40);
 }

@@ -8,15 +8,15 @@ import plain_contacts as plain
 crossing = 0
 for name, rows in (("bed", False), ("periodic_bed", False), ("moving", False), ("tilted", True), ("tilted_granular", True)):
     for step in plain.steps(name):
-        grains, contacts = plain.Particles(name, step), plain.Contacts(name + "_contacts", step)
-        # what contacts push a grain with is, as the simulation has it, all of its force but the weight
-        weight = numpy.outer(grains.mass, plain.GRAVITY) if not rows else 0
-        expected = -plain.products(grains.x, grains.f - weight).sum(axis=0)
+        particles, contacts = plain.Particles(name, step), plain.Contacts(name + "_contacts", step)
+        # what contacts push a particle with is, as the simulation has it, all of its force but the weight
+        weight = numpy.outer(particles.mass, plain.GRAVITY) if not rows else 0
+        expected = -plain.products(particles.x, particles.f - weight).sum(axis=0)
         if not rows:
             walls = plain.Contacts(name + "_walls", step)
             expected = expected + plain.products(walls.ends[:, 0], walls.force).sum(axis=0)
         # a contact across a face pushes at both sides of the box
-        across = plain.branches(grains, contacts)[1]
+        across = plain.branches(particles, contacts)[1]
         crossing += (across != 0).any(axis=1).sum()
         expected = expected + plain.products(across, contacts.force).sum(axis=0)
         for arm in (0, 1):
@@ -25,7 +25,7 @@ for name, rows in (("bed", False), ("periodic_bed", False), ("moving", False), (
             assert error < 2e-13, (name, step, arm, error)
 assert crossing > 300
 
-# at rest the pressure of the log, in which nothing moves, is that of the contacts between grains
+# at rest the pressure of the log, in which nothing moves, is that of the contacts between particles
 for name in ("bed", "periodic_bed"):
     last = plain.last_row(name)
     assert last["Step"] == 70000

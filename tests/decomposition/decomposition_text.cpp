@@ -125,7 +125,7 @@ TEST(EncodeGrid, six_decimals)
   EXPECT_TRUE(thin.starts_with("y: coordinates change by up to 4.82421875")) << thin;
   EXPECT_TRUE(thin.ends_with(", the thinnest slab has 3.0517578125e-05")) << thin;
   EXPECT_EQ(said_of({ 7, 7, 8 }), ""); // flat already
-  // a grain of a micrometre
+  // a particle of a micrometre
   EXPECT_NE(
     said_of({ 0, 1e-7, 2e-7, 3e-7, 1 }).find("; 3 of 4 slabs become flat"), std::string::npos);
   try

@@ -52,9 +52,9 @@ source.UpdatePipeline()
 assert servermanager.Fetch(source).GetCell(0).GetBounds()[1] == 2
 assert source.SMProxy.GetHints().FindNestedElementByName("ShowInMenu").GetAttribute("category") == "Granular"
 
-# the filter, on the grains of a run
-grains = OpenDataFile(os.path.join(data, "grains.dump"))
-divided = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
+# the filter, on the particles of a run
+particles = OpenDataFile(os.path.join(data, "grains.dump"))
+divided = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
 for name, default in {"Mode": "ProcessorGrid", "NumberOfProcesses": 0, "ProcessArray": "proc", "Threads": 0, "Subdomains": None}.items():
     assert getattr(divided, name) == default, (name, getattr(divided, name))
 
@@ -63,7 +63,7 @@ display = Show(divided, view)
 assert display.Representation == "Surface With Edges", display.Representation
 assert tuple(display.ColorArrayName) == ("CELLS", "nlocal"), display.ColorArrayName[:]
 view.ViewTime = 2000
-granular.show(grains, view)
+granular.show(particles, view)
 granular.set_properties(display, Opacity=0.4)
 view.ResetActiveCameraToPositiveY()
 GetActiveCamera().Azimuth(30)

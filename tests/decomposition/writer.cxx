@@ -300,7 +300,7 @@ TEST(DecompositionWriter, OtherCells)
 
 TEST(DecompositionWriter, OtherData)
 {
-  CellWriter writer(NewName("a.vtk"), MakeGrains(1));
+  CellWriter writer(NewName("a.vtk"), MakeParticles(1));
   writer.ExpectUnsupported("expected a vtkUnstructuredGrid of voxels to write, got a vtkPolyData");
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, MakeTwo());

@@ -98,8 +98,8 @@ for file in ("none.vtk", "none.vtu"):
 
 # ---- counts, times and names -------------------------------------------------------------------------
 
-grains = GranularDumpReader(FileNames=[good("grains.dump")], TimestepSize=2e-5)
-domains = GranularDecomposition(Input=grains, ProcessorGrid=[2, 1, 2])
+particles = GranularDumpReader(FileNames=[good("grains.dump")], TimestepSize=2e-5)
+domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
 granular.save(domains, "step_*.vtu", WriteTimeSteps=1)
 granular.save(domains, "step_*.vtk", WriteTimeSteps=1)
 for step, frame in zip((0, 1000, 2000), plain_dump.read(good("grains.dump")), strict=True):

@@ -22,7 +22,7 @@ png.SetFileName("grains.png")
 png.Update()
 pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
 colored = (pixels.max(axis=1) - pixels.min(axis=1)) > 60
-assert 0.02 < colored.mean() < 0.9, colored.mean()  # grains, neither a dot nor a wall of color
+assert 0.02 < colored.mean() < 0.9, colored.mean()  # particles, neither a dot nor a wall of color
 assert len({tuple(pixel // 32) for pixel in pixels[colored]}) > 20  # of many speeds
 
 # and the plugin is where README says

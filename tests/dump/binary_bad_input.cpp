@@ -153,10 +153,10 @@ TEST(BinaryBadInput, EveryNumberOfTheHeaderChanged)
   {
     for (int triclinic = 0; triclinic <= form.most_triclinic(); ++triclinic)
     {
-      const Frame frame = binary::grains(form, 3, 5, triclinic);
+      const Frame frame = binary::particles(form, 3, 5, triclinic);
       const Bytes good = binary::write(form, { frame });
       const std::string behind =
-        binary::write(form, { binary::grains(form, 4, 1, triclinic) }).bytes;
+        binary::write(form, { binary::particles(form, 4, 1, triclinic) }).bytes;
       for (const Field& field : good.fields)
       {
         for (const Value& value : values)
@@ -224,7 +224,7 @@ TEST(BinaryBadInput, TheFieldAtFaultIsNamed)
   for (const Form& form : forms())
   {
     const bool magic = !form.magic.empty();
-    const Bytes good = binary::write(form, { binary::grains(form, 3, 5) });
+    const Bytes good = binary::write(form, { binary::particles(form, 3, 5) });
     for (const Case& one : cases)
     {
       const bool there = std::any_of(good.fields.begin(), good.fields.end(),
@@ -250,11 +250,11 @@ TEST(BinaryBadInput, TheFieldAtFaultIsNamed)
 TEST(BinaryBadInput, AnUnknownMagicWord)
 {
   const Form& form = binary::form("DUMPATOM revision 2, big-endian");
-  std::string bytes = binary::write(form, { binary::grains(form, 3, 5) }).bytes;
+  std::string bytes = binary::write(form, { binary::particles(form, 3, 5) }).bytes;
   bytes.replace(8, 8, "DUMPGRID");
   EXPECT_EQ(defect_of(Dump(bytes)), "memory@8: expected DUMPATOM or DUMPCUSTOM, got 'DUMPGRID'");
   // this is not DUMPCUSTOM either
-  bytes = binary::write(form, { binary::grains(form, 3, 5) }).bytes;
+  bytes = binary::write(form, { binary::particles(form, 3, 5) }).bytes;
   bytes[7] = '\xf6';
   EXPECT_EQ(Dump(bytes).frames(), 0u);
 }
@@ -266,7 +266,7 @@ TEST(BinaryBadInput, ABoxThatIsNoneIsNamed)
   {
     if (form.name.starts_with("plain, little") || form.name.starts_with("plain, big"))
     {
-      Frame frame = binary::grains(form, 3, 5);
+      Frame frame = binary::particles(form, 3, 5);
       frame.box = { 1, 0, 0, 1, 0, 1 };
       const Bytes bytes = binary::write(form, { frame });
       const std::string defect = defect_of(Dump(bytes.bytes, binary::names_for(form)));
@@ -282,13 +282,14 @@ TEST(BinaryBadInput, ADamagedFrameEndsTheFileAndIsSaid)
   for (const Form& form : forms())
   {
     SCOPED_TRACE(form.name);
-    const Bytes good = binary::write(
-      form, { binary::grains(form, 1, 3), binary::grains(form, 2, 3), binary::grains(form, 3, 3) });
+    const Bytes good = binary::write(form,
+      { binary::particles(form, 1, 3), binary::particles(form, 2, 3),
+        binary::particles(form, 3, 3) });
     const auto second = std::find_if(good.fields.begin() + 20, good.fields.end(),
       [&](const Field& field) { return field.name == "size_one" && field.offset > good.ends[0]; });
     const Dump dump(binary::with_field(good, form, *second, 0), binary::names_for(form));
     ASSERT_EQ(dump.frames(), 1u);
-    EXPECT_TRUE(is_whole(dump.read(), binary::grains(form, 1, 3)));
+    EXPECT_TRUE(is_whole(dump.read(), binary::particles(form, 1, 3)));
     EXPECT_EQ(dump.said(),
       "memory@" + std::to_string(second->offset) +
         ": expected 1 to 5000 columns, got 0; the frame and all that follow are left out\n");
@@ -314,11 +315,11 @@ TEST(BinaryBadInput, AFrameOfAnotherLayoutEndsTheFile)
       if (other.magic.empty() != form.magic.empty() || other.big != form.big ||
         other.wide != form.wide || other.boundary != form.boundary)
       {
-        Bytes bytes = binary::write(form, { binary::grains(form, 1, 3) });
-        binary::add(bytes, other, binary::grains(other, 2, 3));
+        Bytes bytes = binary::write(form, { binary::particles(form, 1, 3) });
+        binary::add(bytes, other, binary::particles(other, 2, 3));
         const Dump dump(bytes.bytes, binary::names_for(form));
         EXPECT_EQ(dump.frames(), 1u) << form.name << " then " << other.name;
-        EXPECT_TRUE(is_whole(dump.read(), binary::grains(form, 1, 3)));
+        EXPECT_TRUE(is_whole(dump.read(), binary::particles(form, 1, 3)));
       }
     }
   }
@@ -337,8 +338,8 @@ TEST(BinaryBadInput, EveryTruncation)
     {
       for (const std::int64_t rows : { 0, 2 })
       {
-        const std::vector<Frame> frames = { binary::grains(form, 1, rows, triclinic),
-          binary::grains(form, 2, 1, triclinic) };
+        const std::vector<Frame> frames = { binary::particles(form, 1, rows, triclinic),
+          binary::particles(form, 2, 1, triclinic) };
         const Bytes whole = binary::write(form, frames);
         const auto source = granular::open_memory(whole.bytes);
         const Dump all(whole.bytes, binary::names_for(form));
@@ -385,7 +386,7 @@ TEST(BinaryBadInput, WhatIsSaidOfACutFile)
 {
   for (const Form& form : forms())
   {
-    const Bytes whole = binary::write(form, { binary::grains(form, 1, 3) });
+    const Bytes whole = binary::write(form, { binary::particles(form, 1, 3) });
     for (std::size_t size = 1; size < whole.bytes.size(); ++size)
     {
       const std::string first = whole.bytes.substr(0, size);
@@ -405,7 +406,7 @@ TEST(BinaryBadInput, AFileThatChangedSinceItWasIndexed)
   const MemoryCheck memory;
   for (const Form& form : forms())
   {
-    const Frame frame = binary::grains(form, 258, 3, form.triclinic ? 1 : 0);
+    const Frame frame = binary::particles(form, 258, 3, form.triclinic ? 1 : 0);
     const Bytes good = binary::write(form, { frame });
     const Dump dump(good.bytes, binary::names_for(form));
     const auto read = [&](const std::string& bytes)

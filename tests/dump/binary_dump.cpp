@@ -156,8 +156,8 @@ void expect_header(const Dump& dump, std::size_t index, const Form& form, const 
   EXPECT_EQ(std::isnan(dump.entry(index).time), !frame.time);
 }
 
-/// Whether a frame of binary::grains is read as it was written.
-void expect_grains(const Dump& dump, std::size_t index, const Frame& frame)
+/// Whether a frame of binary::particles is read as it was written.
+void expect_particles(const Dump& dump, std::size_t index, const Frame& frame)
 {
   const Decoded got = dump.read({}, index);
   EXPECT_EQ(got.said(), "");
@@ -276,8 +276,8 @@ TEST(BinaryDump, EveryLayoutAndByteOrder)
     {
       SCOPED_TRACE(form.name + ", triclinic " + std::to_string(triclinic));
       // also with a first frame without atoms, as of a run that has yet to insert some
-      const std::vector<Frame> frames = { binary::grains(form, 0, 0, triclinic),
-        binary::grains(form, 1, 5, triclinic), binary::grains(form, 70000, 1, triclinic) };
+      const std::vector<Frame> frames = { binary::particles(form, 0, 0, triclinic),
+        binary::particles(form, 1, 5, triclinic), binary::particles(form, 70000, 1, triclinic) };
       const Dump dump = dump_of(form, frames);
       EXPECT_EQ(dump.said(), "");
       ASSERT_EQ(dump.steps(), (Integers{ 0, 1, 70000 }));
@@ -285,11 +285,11 @@ TEST(BinaryDump, EveryLayoutAndByteOrder)
       for (std::size_t i = 0; i < frames.size(); ++i)
       {
         expect_header(dump, i, form, frames[i]);
-        expect_grains(dump, i, frames[i]);
+        expect_particles(dump, i, frames[i]);
         const Dump alone = dump_of(form, { frames[i] });
         ASSERT_EQ(alone.frames(), 1u);
         expect_layout(alone, form);
-        expect_grains(alone, 0, frames[i]);
+        expect_particles(alone, 0, frames[i]);
       }
       EXPECT_EQ(dump.index().resume_offset, dump.entry(2).end);
       EXPECT_EQ(dump.entry(1).offset, dump.entry(0).end);
@@ -357,17 +357,17 @@ TEST(BinaryDump, BoxesOfSimulationsThatFailed)
   {
     for (const double odd : { not_a_number, infinity, -infinity, -1e300 })
     {
-      Frame frame = binary::grains(form, 3, 2);
+      Frame frame = binary::particles(form, 3, 2);
       frame.box[1] = odd;
       // bounds the wrong way round are those of another file, unless a magic word says otherwise
       const bool inverted = odd < 0 && form.magic.empty();
       EXPECT_EQ(dump_of(form, { frame }).frames(), inverted ? 0u : 1u) << form.name << " " << odd;
       // behind a frame that can be told by its box, any box will do
-      const Dump later = dump_of(form, { binary::grains(form, 0, 2), frame });
+      const Dump later = dump_of(form, { binary::particles(form, 0, 2), frame });
       ASSERT_EQ(later.frames(), 2u) << form.name << " " << odd;
       EXPECT_EQ(later.read({}, 1).points(), interleaved(frame, 2));
     }
-    Frame flat = binary::grains(form, 3, 2);
+    Frame flat = binary::particles(form, 3, 2);
     flat.box = { 0, 1, 0, 0, -0.5, -0.5 };
     EXPECT_EQ(dump_of(form, { flat }).frames(), 1u) << form.name;
   }
@@ -378,7 +378,7 @@ TEST(BinaryDump, LargestAndSmallestHeaderNumbers)
   for (const Form& form : forms())
   {
     const std::int64_t largest = form.wide ? std::numeric_limits<std::int64_t>::max() : 2147483647;
-    Frame frame = binary::grains(form, 3, 2);
+    Frame frame = binary::particles(form, 3, 2);
     frame.timestep = largest;
     EXPECT_EQ(dump_of(form, { frame }).steps(), Integers{ largest }) << form.name;
     frame.timestep = form.wide ? 4294967296 : 65536;
@@ -390,8 +390,8 @@ TEST(BinaryDump, TheStepsAreInTheUnitsAndTimesOfTheFile)
 {
   // as LAMMPS writes them: units once a file, time in every frame
   const Form& form = binary::form("DUMPCUSTOM revision 2, little-endian");
-  std::vector<Frame> frames = { binary::grains(form, 0, 1), binary::grains(form, 10, 1),
-    binary::grains(form, 20, 1) };
+  std::vector<Frame> frames = { binary::particles(form, 0, 1), binary::particles(form, 10, 1),
+    binary::particles(form, 20, 1) };
   frames[1].units = frames[2].units = "";
   frames[1].time = 0.125;
   frames[2].time = 0.375;
@@ -421,9 +421,9 @@ TEST(BinaryDump, FramesWithoutRows)
     for (const std::size_t chunks : { 1u, 4u, 5000u })
     {
       SCOPED_TRACE(form.name + ", chunks " + std::to_string(chunks));
-      Frame empty = binary::grains(form, 0, 0);
+      Frame empty = binary::particles(form, 0, 0);
       empty.chunks.assign(chunks, {});
-      const Dump dump = dump_of(form, { empty, binary::grains(form, 2, 3), empty });
+      const Dump dump = dump_of(form, { empty, binary::particles(form, 2, 3), empty });
       EXPECT_EQ(dump.said(), "");
       ASSERT_EQ(dump.frames(), 3u);
       expect_layout(dump, form);
@@ -453,7 +453,7 @@ TEST(BinaryDump, AnyChunks)
     { "plain, little-endian", "plain, big-endian", "DUMPCUSTOM revision 2, big-endian" })
   {
     const Form& form = binary::form(name);
-    const Frame whole = binary::grains(form, 4, rows);
+    const Frame whole = binary::particles(form, 4, rows);
     Doubles all;
     for (const Doubles& chunk : whole.chunks)
     {
@@ -476,8 +476,8 @@ TEST(BinaryDump, AnyChunks)
       SCOPED_TRACE(form.name + ", chunks " + std::to_string(frame.chunks.size()));
       const Dump dump = dump_of(form, { frame, frame });
       ASSERT_EQ(dump.frames(), 2u);
-      expect_grains(dump, 0, frame);
-      expect_grains(dump, 1, frame);
+      expect_particles(dump, 0, frame);
+      expect_particles(dump, 1, frame);
     }
   }
 }
@@ -508,7 +508,7 @@ TEST(BinaryDump, CompressedFiles)
   for (const char* const name : { "plain, little-endian", "DUMPCUSTOM revision 2, big-endian" })
   {
     const Form& form = binary::form(name);
-    const Frame small = binary::grains(form, 1, 1000);
+    const Frame small = binary::particles(form, 1, 1000);
     Frame wide;
     wide.timestep = 2;
     wide.size_one = 5000;
@@ -537,7 +537,7 @@ TEST(BinaryDump, CompressedFiles)
         EXPECT_EQ(dump.entry(i).end, static_cast<std::int64_t>(bytes.ends[i]));
         if (frames[i].size_one == 12)
         {
-          expect_grains(dump, i, frames[i]);
+          expect_particles(dump, i, frames[i]);
           continue;
         }
         const Decoded got = dump.read({}, i);
@@ -1043,7 +1043,7 @@ TEST(BinaryDump, KnownByItsFirst200Bytes)
       for (const std::int64_t rows : { 0, 1, 5, 40 })
       {
         const std::string bytes =
-          binary::write(form, { binary::grains(form, 0, rows, triclinic) }).bytes;
+          binary::write(form, { binary::particles(form, 0, rows, triclinic) }).bytes;
         unknown += granular::is_binary_dump(std::string_view(bytes).substr(0, 200))
           ? ""
           : form.name + ", triclinic " + std::to_string(triclinic) + "\n";

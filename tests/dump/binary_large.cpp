@@ -74,12 +74,12 @@ TEST(BinaryLarge, TrapMoreValuesThan31Bits)
     SparseFile file(folder.path("large.bin"));
     // 2.4e9 values, in chunks of the largest number that fits an int32, of none, and of the rest
     constexpr std::int64_t chunk = 2147483647 / 12;
-    const Frame first = binary::grains(form, 0, 3);
-    const Frame second = binary::grains(form, 2, 4);
+    const Frame first = binary::particles(form, 0, 3);
+    const Frame second = binary::particles(form, 2, 4);
     file.append(binary::write(form, { first }).bytes);
     const std::int64_t large_offset = file.size();
     const std::int64_t rows =
-      append_large(file, form, binary::grains(form, 1, 1), { chunk, 0, 21045513 });
+      append_large(file, form, binary::particles(form, 1, 1), { chunk, 0, 21045513 });
     const std::int64_t large_end = file.size();
     file.append(binary::write(form, { second }).bytes);
     if (!file.good())
@@ -104,7 +104,7 @@ TEST(BinaryLarge, TrapMoreValuesThan31Bits)
     expect_small_frame(index, 2, second);
 
     // it grows, and only what is new is looked at
-    const Frame third = binary::grains(form, 3, 2);
+    const Frame third = binary::particles(form, 3, 2);
     const std::string more = binary::write(form, { third }).bytes;
     file.append(more);
     index.update({ file.path() }, names(), notices, progress);

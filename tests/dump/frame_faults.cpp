@@ -143,12 +143,12 @@ TEST(FrameFaults, BinaryValuesThatDoNotFit)
   const binary::Form& form = binary::form("plain, little-endian");
   for (const std::size_t row : { 0u, 13u, 29u })
   {
-    binary::Frame frame = binary::grains(form, 1, 30);
+    binary::Frame frame = binary::particles(form, 1, 30);
     const std::size_t half = frame.chunks[0].size();
     std::vector<double>& run = 12 * row < half ? frame.chunks[0] : frame.chunks[2];
     run[12 * row - (12 * row < half ? 0 : half) + 1] = 1.5;
     run[12 * row - (12 * row < half ? 0 : half)] = 0.5;
-    const Dump dump(binary::write(form, { frame }).bytes, binary::grain_columns);
+    const Dump dump(binary::write(form, { frame }).bytes, binary::particle_columns);
     const Outcome outcome = same_outcome(reading(dump));
     EXPECT_EQ(outcome.error, "");
     EXPECT_NE(outcome.said.find(
@@ -303,7 +303,7 @@ TEST(FrameFaults, TextsThatChangeWhileTheyAreRead)
 TEST(FrameFaults, BinariesThatChangeWhileTheyAreRead)
 {
   const binary::Form& form = binary::form("DUMPCUSTOM revision 2, little-endian");
-  const std::string bytes = binary::write(form, { binary::grains(form, 1, 30) }).bytes;
+  const std::string bytes = binary::write(form, { binary::particles(form, 1, 30) }).bytes;
   expect_no_crash(bytes, Dump(bytes));
 }
 

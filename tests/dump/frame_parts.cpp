@@ -148,7 +148,7 @@ TEST(FrameParts, PackedPieces)
   {
     const std::string name = "a." + std::to_string(process) + ".dump";
     const std::string text =
-      grains(7, process == 2 ? Ids{} : ids_from(100 * process, 50 + 40 * process));
+      particles(7, process == 2 ? Ids{} : ids_from(100 * process, 50 + 40 * process));
     files.push_back(process == 0 ? folder.write(name, text)
         : process % 2 == 1       ? folder.write(name + ".gz", packing::gzip(text))
                                  : folder.write(name + ".zst", packing::zstd(text)));
@@ -163,12 +163,12 @@ TEST(FrameParts, BinaryPieces)
   Files files;
   for (const int process : { 0, 1, 2 })
   {
-    binary::Frame frame = binary::grains(form, 3, process == 1 ? 0 : 20 + process);
+    binary::Frame frame = binary::particles(form, 3, process == 1 ? 0 : 20 + process);
     frame.box = { 0, 1, 0, 1, 0, 1 };
     files.push_back(
       folder.write("a." + std::to_string(process) + ".bin", binary::write(form, { frame }).bytes));
   }
-  expect_files_the_same(files, binary::grain_columns);
+  expect_files_the_same(files, binary::particle_columns);
 }
 
 // ---- hand-made files ---------------------------------------------------------------------------
@@ -379,7 +379,7 @@ TEST(FrameParts, BinaryRunsOfAllSizes)
   for (const binary::Form& form : binary::forms())
   {
     SCOPED_TRACE(form.name);
-    binary::Frame frame = binary::grains(form, 1, 40);
+    binary::Frame frame = binary::particles(form, 1, 40);
     std::vector<double> values;
     for (const std::vector<double>& chunk : frame.chunks)
     {

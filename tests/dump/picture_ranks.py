@@ -19,7 +19,7 @@ IDS = numpy.arange(1, 61)
 CAMERA = Camera([3, 2, 5], [0, 0, 0], scale=SCALE)
 
 
-# ---- the same grains in files of pieces -----------------------------------------------------------
+# ---- the same particles in files of pieces -----------------------------------------------------------
 def write_piece(path, rows, arrays):
     data, points, vertices = vtkPolyData(), vtkPoints(), vtkCellArray()
     points.SetDataTypeToDouble()
@@ -139,7 +139,7 @@ assert display.Representation == "Grains", display.Representation
 expect("dump", display)
 Delete(reader)
 
-# ---- a grain whose centre is not in the picture ----------------------------------------------------
+# ---- a particle whose centre is not in the picture ----------------------------------------------------
 CENTRES, RADII, IDS = numpy.array([[0.0, 0.0, 0.0]]), numpy.array([4.0]), numpy.array([30])
 reader = OpenDataFile(write("one", [numpy.array([0])]))
 RIGHT = numpy.cross([0, 1, 0], CAMERA.position)

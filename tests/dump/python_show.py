@@ -138,18 +138,18 @@ with open("grown.dump", "w") as file:
     file.write(grown)
 for way in (granular.show, Show):
     view.ViewTime = 0
-    grains = OpenDataFile(os.path.abspath("grown.dump"))
-    display = way(grains, view)
+    particles = OpenDataFile(os.path.abspath("grown.dump"))
+    display = way(particles, view)
     Render(view)
-    assert grains.GetDataInformation().GetNumberOfPoints() == 0
+    assert particles.GetDataInformation().GetNumberOfPoints() == 0
     view.ViewTime = 10
     expect(display, 3, 0.5)
-    Delete(grains)
+    Delete(particles)
 
 # colours can be chosen before there is anything to colour
 view.ViewTime = 0
-grains = OpenDataFile(os.path.abspath("grown.dump"))
-display = granular.show(grains, view, color="radius")
+particles = OpenDataFile(os.path.abspath("grown.dump"))
+display = granular.show(particles, view, color="radius")
 view.ViewTime = 10
 Render(view)
 assert list(display.ColorArrayName) == ["POINTS", "radius"]
@@ -160,13 +160,13 @@ typed = HEADER.replace("\n2\n", "\n0\n") + "id type x y z radius\n" + HEADER.rep
 with open("typed.dump", "w") as file:
     file.write(typed)
 view.ViewTime = 0
-for grains in (granular.reader("typed.dump"), Calculator(Input=granular.reader("typed.dump"))):
-    display = granular.show(grains, view, color="type", box=True)
+for particles in (granular.reader("typed.dump"), Calculator(Input=granular.reader("typed.dump"))):
+    display = granular.show(particles, view, color="type", box=True)
     colours = GetColorTransferFunction("type")
     assert list(colours.Annotations) == ["2", "type 2", "3", "type 3", "4", "type 4"], colours.Annotations
     assert len(colours.IndexedColors) == 9 and colours.InterpretValuesAsCategories == 1
-    assert grains.GetDataInformation().GetNumberOfPoints() == 0  # the frame that is shown is the one that was shown
-    granular.show(grains, view, color="radius")
+    assert particles.GetDataInformation().GetNumberOfPoints() == 0  # the frame that is shown is the one that was shown
+    granular.show(particles, view, color="radius")
     points = list(GetColorTransferFunction("radius").RGBPoints)
     assert (points[0], points[-4]) == (0.5, 3), points
 

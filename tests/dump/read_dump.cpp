@@ -269,7 +269,7 @@ const char* const wide_box = " pp pp pp\n10 20\n-4 4\n0 16\n";
 
 TEST(ReadDump, CoordinatesFromEveryForm)
 {
-  // the same grain: absolute (15, 2, 4), images (1, -1, 2)
+  // the same particle: absolute (15, 2, 4), images (1, -1, 2)
   const std::string images = " 1 -1 2\n";
   const std::vector<std::string> dumps = {
     one_frame("x y z ix iy iz", "15 2 4" + images, wide_box),

@@ -9,7 +9,7 @@ import struct
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-GRAINS = "id type x y z ix iy iz vx vy vz radius"  # of grains.bin, in the words of its `dump custom`
+PARTICLES = "id type x y z ix iy iz vx vy vz radius"  # of grains.bin, in the words of its `dump custom`
 
 
 def good(name):
@@ -111,7 +111,7 @@ else:
 
 # ---- columns without names ---------------------------------------------------------------------
 
-reader = GranularDumpReader(FileNames=[good("grains.bin")], ColumnNames=GRAINS)
+reader = GranularDumpReader(FileNames=[good("grains.bin")], ColumnNames=PARTICLES)
 reader.UpdatePipelineInformation()
 assert list(reader.TimestepValues) == [0, 1000, 2000], reader.TimestepValues
 assert list(reader.PointArrayStatus) == ["id", "type", "image", "v", "radius"], \
@@ -128,13 +128,13 @@ assert all(abs(a - b) < 1e-6 for a, b in zip(bounds, expected)), (bounds, expect
 # opened first, named afterwards: that is how it is done in the window
 reader = OpenDataFile(good("grains.bin"))
 assert reader is not None and reader.GetXMLName() == "GranularDumpReader"
-reader.ColumnNames = GRAINS
+reader.ColumnNames = PARTICLES
 assert points(reader, 1000) == 1200
 assert sorted(reader.PointData.keys()) == ["id", "image", "radius", "type", "v"], \
     reader.PointData.keys()
 assert list(reader.TimestepValues) == [0, 1000, 2000]
 # another name
-reader.ColumnNames = GRAINS.replace("radius", "size")
+reader.ColumnNames = PARTICLES.replace("radius", "size")
 points(reader, 1000)
 assert sorted(reader.PointData.keys()) == ["id", "image", "size", "type", "v"], \
     reader.PointData.keys()
@@ -149,7 +149,7 @@ for name, default in (("ColumnNames", ""), ("RepeatedSteps", "Auto"), ("RefreshO
 
 ResetSession()
 reader = OpenDataFile(good("grains.bin"))
-reader.ColumnNames = GRAINS
+reader.ColumnNames = PARTICLES
 reader.RepeatedSteps = "Last"
 reader.RefreshOnUpdate = 1
 reader.UpdatePipelineInformation()
@@ -161,7 +161,7 @@ LoadState(os.path.abspath("forms.pvsm"))
 loaded = [proxy for proxy in GetSources().values() if proxy.GetXMLName() == "GranularDumpReader"]
 assert len(loaded) == 1, GetSources()
 reader = loaded[0]
-assert reader.ColumnNames == GRAINS and reader.RepeatedSteps == "Last"
+assert reader.ColumnNames == PARTICLES and reader.RepeatedSteps == "Last"
 assert reader.RefreshOnUpdate == 1
 assert list(reader.PointArrayStatus) == ["id", "radius"], reader.PointArrayStatus
 assert points(reader, 1000) == 1200
@@ -169,7 +169,7 @@ assert sorted(reader.PointData.keys()) == ["id", "radius"], reader.PointData.key
 
 # what may be chosen is what there is, also when the names of the columns came later
 reader = OpenDataFile(good("grains.bin"))
-reader.ColumnNames = GRAINS
+reader.ColumnNames = PARTICLES
 reader.UpdatePipelineInformation()
 assert list(reader.PointArrayStatus) == ["id", "type", "image", "v", "radius"], \
     reader.PointArrayStatus

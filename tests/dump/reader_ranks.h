@@ -109,7 +109,7 @@ protected:
     return all;
   }
 
-  /// All grains of a GrainsFrame are there once, in order, and one box.
+  /// All particles of a GrainsFrame are there once, in order, and one box.
   void ExpectWhole(Reader& reader, int count)
   {
     EXPECT_EQ(Outcome(reader), "code 0");

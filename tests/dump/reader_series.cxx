@@ -24,8 +24,8 @@ std::vector<std::string> Pieces(const std::vector<std::string>& steps)
   return files;
 }
 
-/// One grain at every step, whose x is the step.
-std::string Grain(long step)
+/// One particle at every step, whose x is the step.
+std::string Particle(long step)
 {
   return Frame(step, 1, "id x y z", "1 " + std::to_string(step) + " 0 0\n");
 }
@@ -50,7 +50,7 @@ void ExpectNothing(Reader& reader, unsigned long code)
   EXPECT_EQ(reader.Box()->GetNumberOfCells(), 0);
 }
 
-void ExpectGrainsAgain(Reader& reader)
+void ExpectParticlesAgain(Reader& reader)
 {
   reader.Open(Good("grains_1000.dump"));
   reader->Update();
@@ -112,23 +112,23 @@ TEST(ReaderSeries, RefreshOnUpdateSeesWhatWasAppended)
 {
   for (const bool refresh : { false, true })
   {
-    const std::string file = WriteFile("a.dump", Grain(0));
+    const std::string file = WriteFile("a.dump", Particle(0));
     Reader reader({ file });
     reader->SetRefreshOnUpdate(refresh);
     EXPECT_EQ(reader->GetRefreshOnUpdate(), refresh);
     EXPECT_EQ(reader.Times(), std::vector<double>{ 0 });
-    Append(file, Grain(10));
+    Append(file, Particle(10));
     // by information alone, as animations ask
     EXPECT_EQ(reader.Times().size(), refresh ? 2u : 1u);
     reader->UpdateTimeStep(10);
     EXPECT_EQ(reader.Particles()->GetPoint(0)[0], refresh ? 10 : 0);
     // by data
-    Append(file, Grain(20));
+    Append(file, Particle(20));
     reader->UpdateTimeStep(20);
     EXPECT_EQ(reader.Particles()->GetPoint(0)[0], refresh ? 20 : 0);
     EXPECT_EQ(reader.Times().size(), refresh ? 3u : 1u);
     // by the other output
-    Append(file, Grain(30));
+    Append(file, Particle(30));
     reader->GetOutputInformation(1)->Set(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP(), 30.);
     reader->Update(1);
     EXPECT_EQ(
@@ -140,7 +140,7 @@ TEST(ReaderSeries, RefreshOnUpdateSeesWhatWasAppended)
 
 TEST(ReaderSeries, RefreshOnUpdateReadsNothingThatDidNotChange)
 {
-  const std::string file = WriteFile("a.dump", Grain(0) + Grain(10));
+  const std::string file = WriteFile("a.dump", Particle(0) + Particle(10));
   Reader reader({ file });
   reader->SetRefreshOnUpdate(true);
   const Executions executions(reader);
@@ -155,7 +155,7 @@ TEST(ReaderSeries, RefreshOnUpdateReadsNothingThatDidNotChange)
   EXPECT_EQ(executions.Count, 1);
   EXPECT_EQ(reader->GetMTime(), time);
   // a part of a frame changes no frame, but the file was looked at
-  Append(file, Grain(20).substr(0, 30));
+  Append(file, Particle(20).substr(0, 30));
   reader->UpdateTimeStep(0);
   const int after = executions.Count;
   for (int round = 0; round < 10; ++round)
@@ -176,13 +176,13 @@ TEST(ReaderSeries, RefreshOnUpdateBeforeThereIsAnything)
   reader->Update();
   ASSERT_EQ(reader.Said->Errors.size(), 1u);
   ExpectNothing(reader, vtkErrorCode::FileNotFoundError);
-  WriteFile("a.dump", Grain(0).substr(0, 40));
+  WriteFile("a.dump", Particle(0).substr(0, 40));
   reader->Update();
   ASSERT_EQ(reader.Said->Errors.size(), 2u);
   EXPECT_EQ(reader.Said->Errors[1],
     file + ":1: expected a complete frame, got the end of the file in its header");
   ExpectNothing(reader, vtkErrorCode::FileFormatError);
-  Append(file, Grain(0).substr(40));
+  Append(file, Particle(0).substr(40));
   reader->Update();
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1);
   EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
@@ -206,14 +206,14 @@ TEST(ReaderSeries, WhatWasChosenStaysWhenFramesAreAdded)
 
 TEST(ReaderSeries, AGrowingFileSaysNothingTwice)
 {
-  const std::string file = WriteFile("a.dump", Grain(0) + "garbage\n" + Grain(10));
+  const std::string file = WriteFile("a.dump", Particle(0) + "garbage\n" + Particle(10));
   Reader reader({ file });
   reader->SetRefreshOnUpdate(true);
   reader->Update();
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
   for (long step = 20; step < 100; step += 10)
   {
-    Append(file, Grain(step));
+    Append(file, Particle(step));
     reader->UpdateTimeStep(static_cast<double>(step));
     EXPECT_EQ(reader.Particles()->GetPoint(0)[0], static_cast<double>(step));
   }
@@ -254,7 +254,7 @@ TEST(ReaderSeries, ADamagedFileIsAnErrorAndAmongOthersAWarning)
   ASSERT_EQ(reader.Said->Errors.size(), 1u);
   EXPECT_EQ(reader.Said->Errors[0].substr(0, damaged.size() + 1), damaged + "@");
   ExpectNothing(reader, vtkErrorCode::FileFormatError);
-  ExpectGrainsAgain(reader);
+  ExpectParticlesAgain(reader);
 
   Reader others({ Good("ortho_000000.dump.gz"), damaged, Good("ortho_000100.dump.gz") });
   EXPECT_EQ(others.Times(), (std::vector<double>{ 0, 100 }));

@@ -740,7 +740,7 @@ TEST(RealFiles, CornersOfTheBoxes)
 
 namespace
 {
-constexpr const char* grain_names = "id type x y z ix iy iz vx vy vz radius";
+constexpr const char* particle_names = "id type x y z ix iy iz vx vy vz radius";
 
 /// The value of a column of a row: arrays hold several.
 double value_of(const Decoded& frame, const std::string& column, std::size_t row)
@@ -791,10 +791,10 @@ TEST(RealFiles, PlainBinaryOfLiggghts)
   granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
-  index.update({ path_of("grains.bin") }, with_names(grain_names), notices, progress);
+  index.update({ path_of("grains.bin") }, with_names(particle_names), notices, progress);
   EXPECT_EQ(lines_of(notices), "");
   const std::vector<Table> printed = tables_of_text(data_file("good/grains.dump"));
-  const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), grain_names);
+  const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), particle_names);
   ASSERT_EQ(index.size(), 3u);
   ASSERT_EQ(printed.size(), 3u);
   EXPECT_EQ(index.times(1), (Doubles{ 0, 1000, 2000 }));
@@ -809,7 +809,7 @@ TEST(RealFiles, PlainBinaryOfLiggghts)
     EXPECT_EQ(got.frame.header.box.corner(1, 1, 1), (granular::Vector3{ 0.05, 0.05, 0.15 }));
     const Integers ids = got.integers("id");
     EXPECT_EQ(ids, printed[frame].ids) << "both in the order of the processes";
-    for (const std::string& name : words_of(grain_names))
+    for (const std::string& name : words_of(particle_names))
     {
       const Doubles values = column_of(got, name);
       ASSERT_EQ(values.size(), ids.size());
@@ -841,7 +841,7 @@ TEST(RealFiles, PlainBinaryOfLiggghtsWithoutNames)
     { path_of("grains.bin") }, { .format = &granular::dump_format() }, notices, progress);
   EXPECT_EQ(lines_of(notices), "");
   EXPECT_EQ(index.times(1), (Doubles{ 0, 1000, 2000 }));
-  const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), grain_names);
+  const std::vector<Table> stored = tables_of_binary(data_file("good/grains.bin"), particle_names);
   for (std::size_t frame = 0; frame < 3; ++frame)
   {
     const std::string said = error_of([&] { read(index, frame, {}); });
@@ -857,7 +857,7 @@ TEST(RealFiles, PlainBinaryOfLiggghtsWithoutNames)
     for (std::size_t column = 0; column < 12; ++column)
     {
       EXPECT_EQ(std::strtod(words[column].c_str(), nullptr),
-        table.rows.at(table.ids[0]).at(words_of(grain_names)[column]));
+        table.rows.at(table.ids[0]).at(words_of(particle_names)[column]));
     }
   }
 }

@@ -19,10 +19,10 @@ using namespace granular;
 
 using Names = std::vector<std::string>;
 
-/// Two grains in a box from 0 to 10, and no arrays.
-struct TwoGrains
+/// Two particles in a box from 0 to 10, and no arrays.
+struct TwoParticles
 {
-  TwoGrains()
+  TwoParticles()
   {
     frame.header.box = Box::from_bounds({ 0, 0, 0 }, { 10, 10, 10 });
     frame.header.box.boundary = "pp pp pp";
@@ -90,91 +90,92 @@ const std::vector<std::int32_t> types = { 2, 1 };
 
 TEST(WriteColumns, vectors)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<double> v = { 0.5, -1, 2, 3, 4e-7, 5 };
   const std::vector<float> quat = { 1, 0, 0, 0, 0.5F, 0.5F, 0.5F, 0.5F };
   const std::vector<double> stress = { 1, 2, 3, 4, 5, 6, 11, 12, 13, 14, 15, 16 };
-  grains.add("v", ValueType::Float64, v);
-  grains.add("quat", ValueType::Float32, quat);
-  grains.add("c_stress", ValueType::Float64, stress);
-  EXPECT_EQ(write(grains.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
-  EXPECT_EQ(write(grains.frame, { "v" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
-  EXPECT_EQ(write(grains.frame, { "vz", "vx" }).body, "vz vx\n2 0.5\n5 3\n");
-  EXPECT_EQ(write(grains.frame, { "quat4", "quat1" }).body, "quat4 quat1\n0 1\n0.5 0.5\n");
-  EXPECT_EQ(write(grains.frame, { "c_stress[6]", "c_stress[1]" }).body,
+  particles.add("v", ValueType::Float64, v);
+  particles.add("quat", ValueType::Float32, quat);
+  particles.add("c_stress", ValueType::Float64, stress);
+  EXPECT_EQ(write(particles.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
+  EXPECT_EQ(write(particles.frame, { "v" }).body, "vx vy vz\n0.5 -1 2\n3 4e-07 5\n");
+  EXPECT_EQ(write(particles.frame, { "vz", "vx" }).body, "vz vx\n2 0.5\n5 3\n");
+  EXPECT_EQ(write(particles.frame, { "quat4", "quat1" }).body, "quat4 quat1\n0 1\n0.5 0.5\n");
+  EXPECT_EQ(write(particles.frame, { "c_stress[6]", "c_stress[1]" }).body,
     "c_stress[6] c_stress[1]\n6 1\n16 11\n");
-  EXPECT_EQ(write(grains.frame, { "c_stress" }).body,
+  EXPECT_EQ(write(particles.frame, { "c_stress" }).body,
     "c_stress[1] c_stress[2] c_stress[3] c_stress[4] c_stress[5] c_stress[6]\n1 2 3 4 5 6\n"
     "11 12 13 14 15 16\n");
-  EXPECT_EQ(write(grains.frame, { "v[2]" }).body, "v[2]\n-1\n4e-07\n");
+  EXPECT_EQ(write(particles.frame, { "v[2]" }).body, "v[2]\n-1\n4e-07\n");
   for (const char* const name : { "c_stress[7]", "c_stress[0]", "c_stress[-1]", "c_stress[]",
          "c_stress[1", "c_stress[1]x", "c_stress[x]", "vw", "c_stress[99999999999]" })
   {
-    EXPECT_EQ(write(grains.frame, { name }).error,
+    EXPECT_EQ(write(particles.frame, { name }).error,
       std::string("column '") + name +
         "': expected an array to make it from, got none: there are v, quat, c_stress");
   }
 }
 
-TEST(WriteColumns, frameWithoutGrains)
+TEST(WriteColumns, frameWithoutParticles)
 {
-  TwoGrains grains;
-  grains.frame.rows = 0;
-  const Text any = write(grains.frame, { "id", "type", "x", "v", "radius", "speed", "c_stress" });
+  TwoParticles particles;
+  particles.frame.rows = 0;
+  const Text any =
+    write(particles.frame, { "id", "type", "x", "v", "radius", "speed", "c_stress" });
   EXPECT_EQ(any.body, "id type x vx vy vz radius speed c_stress\n");
   EXPECT_EQ(any.said + any.error, "");
   const std::vector<double> speeds = { 1, 2 };
-  grains.add("speed", ValueType::Float64, speeds);
-  EXPECT_EQ(write(grains.frame, { "id", "radius" }).error,
+  particles.add("speed", ValueType::Float64, speeds);
+  EXPECT_EQ(write(particles.frame, { "id", "radius" }).error,
     "column 'radius': expected an array to make it from, got none: there are speed");
 }
 
 TEST(WriteColumns, missing)
 {
-  TwoGrains grains;
-  const Text made = write(grains.frame, { "type", "id", "x" });
+  TwoParticles particles;
+  const Text made = write(particles.frame, { "type", "id", "x" });
   EXPECT_EQ(made.body, "type id x\n1 1 1\n1 2 4\n");
   EXPECT_EQ(made.said,
     "no array 'type': the type of all is 1\nno array 'id': ids are the numbers of the rows, from "
     "1\n");
-  EXPECT_EQ(write(grains.frame, { "radius" }).error,
+  EXPECT_EQ(write(particles.frame, { "radius" }).error,
     "column 'radius': expected an array to make it from, got none: there are no arrays");
-  grains.frame.points.reset();
-  EXPECT_EQ(write(grains.frame, { "id", "x" }).error,
+  particles.frame.points.reset();
+  EXPECT_EQ(write(particles.frame, { "id", "x" }).error,
     "column 'x': expected an array to make it from, got none: there are no arrays");
-  EXPECT_EQ(write(grains.frame, { "id" }).body, "id\n1\n2\n");
-  EXPECT_EQ(write(grains.frame, { "ix" }).body, "ix\n0\n0\n");
-  grains.frame.coordinates = Coordinates::Unwrapped;
-  EXPECT_EQ(write(grains.frame, { "ix" }).body, "ix\n0\n0\n");
+  EXPECT_EQ(write(particles.frame, { "id" }).body, "id\n1\n2\n");
+  EXPECT_EQ(write(particles.frame, { "ix" }).body, "ix\n0\n0\n");
+  particles.frame.coordinates = Coordinates::Unwrapped;
+  EXPECT_EQ(write(particles.frame, { "ix" }).body, "ix\n0\n0\n");
 }
 
 TEST(WriteColumns, names)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<double> heat = { 1.5, 2.5 };
   const std::vector<double> two = { 1, 2, 3, 4 };
-  grains.add("heat flux", ValueType::Float64, heat);
-  grains.add("my\tpair of numbers", ValueType::Float64, two);
-  EXPECT_EQ(write(grains.frame, { "heat_flux" }).body, "heat_flux\n1.5\n2.5\n");
-  EXPECT_EQ(write(grains.frame, { "my_pair_of_numbers" }).body,
+  particles.add("heat flux", ValueType::Float64, heat);
+  particles.add("my\tpair of numbers", ValueType::Float64, two);
+  EXPECT_EQ(write(particles.frame, { "heat_flux" }).body, "heat_flux\n1.5\n2.5\n");
+  EXPECT_EQ(write(particles.frame, { "my_pair_of_numbers" }).body,
     "my_pair_of_numbers[1] my_pair_of_numbers[2]\n1 2\n3 4\n");
-  EXPECT_EQ(write(grains.frame, {}).body,
+  EXPECT_EQ(write(particles.frame, {}).body,
     "id type x y z heat_flux my_pair_of_numbers[1] my_pair_of_numbers[2]\n1 1 1 2 3 1.5 1 2\n"
     "2 1 4 5 6 2.5 3 4\n");
   for (const auto& [name, shown] : { std::pair("heat flux", "heat flux"), std::pair("", ""),
          std::pair(" id", " id"), std::pair("id\n", "id\\n") })
   {
-    EXPECT_EQ(write(grains.frame, { "id", name }).error,
+    EXPECT_EQ(write(particles.frame, { "id", name }).error,
       std::string("expected the name of a column as one word, got '") + shown + "'");
   }
 }
 
 TEST(WriteColumns, every_type)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const auto check = [&]<class Value>(ValueType type, Value low, Value high)
   {
-    TwoGrains own;
+    TwoParticles own;
     const std::vector<Value> values = { low, high };
     own.add("a", type, values);
     own.add("type", type, values);
@@ -199,87 +200,87 @@ TEST(WriteColumns, every_type)
   check(ValueType::UInt64, std::uint64_t{ 0 }, std::uint64_t{ (1ULL << 63) - 1 });
 
   const std::vector<std::uint64_t> huge = { 1, 1ULL << 63 };
-  grains.add("a", ValueType::UInt64, huge);
-  EXPECT_EQ(write(grains.frame, { "a" }).error,
+  particles.add("a", ValueType::UInt64, huge);
+  EXPECT_EQ(write(particles.frame, { "a" }).error,
     "column 'a': expected integers below 2^63, got 9223372036854775808");
 }
 
 /// Arrays of one value a row that lie in another array, as of VTK's arrays by component.
 TEST(WriteColumns, steps)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<std::int16_t> mixed = { 1, 2, 3, 4, 5, 6, 7, 8 };
   ArrayView view = view_rows("a", ValueType::Int16, mixed.data() + 1, 2);
   view.step = 4;
   std::swap(view.components[0], view.components[1]);
-  grains.frame.arrays.push_back(view);
-  EXPECT_EQ(write(grains.frame, { "a" }).body, "a[1] a[2]\n3 2\n7 6\n");
+  particles.frame.arrays.push_back(view);
+  EXPECT_EQ(write(particles.frame, { "a" }).body, "a[1] a[2]\n3 2\n7 6\n");
 }
 
 TEST(WriteColumns, big_ids)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<std::int64_t> big = { (std::int64_t{ 1 } << 31) + 5,
     (std::int64_t{ 1 } << 53) + 1 };
-  grains.add("id", ValueType::Int64, big);
-  grains.add("mol", ValueType::Int64, big);
-  EXPECT_EQ(write(grains.frame, { "id", "mol" }).body,
+  particles.add("id", ValueType::Int64, big);
+  particles.add("mol", ValueType::Int64, big);
+  EXPECT_EQ(write(particles.frame, { "id", "mol" }).body,
     "id mol\n2147483653 2147483653\n9007199254740993 9007199254740993\n");
   std::string error;
-  write_binary(grains.frame, { "type", "mol" }, &error);
+  write_binary(particles.frame, { "type", "mol" }, &error);
   EXPECT_EQ(error,
     "column 'mol': expected integers that a double can hold, as all up to 2^53, for a binary dump, "
     "got 9007199254740993");
   const std::vector<std::int64_t> exact = { -(std::int64_t{ 1 } << 53), std::int64_t{ 1 } << 60 };
   const std::vector<std::int64_t> last = { 1, std::numeric_limits<std::int64_t>::max() };
-  grains.frame.arrays = {};
-  grains.add("id", ValueType::Int64, exact);
-  grains.add("mol", ValueType::Int64, last);
-  EXPECT_EQ(write_binary(grains.frame, { "id" }), (std::vector<double>{ -0x1p53, 0x1p60 }));
-  write_binary(grains.frame, { "mol" }, &error);
+  particles.frame.arrays = {};
+  particles.add("id", ValueType::Int64, exact);
+  particles.add("mol", ValueType::Int64, last);
+  EXPECT_EQ(write_binary(particles.frame, { "id" }), (std::vector<double>{ -0x1p53, 0x1p60 }));
+  write_binary(particles.frame, { "mol" }, &error);
   EXPECT_NE(error.find("got 9223372036854775807"), error.npos);
 }
 
 /// Tools that know no integers hold ids as real numbers: they are whole numbers all the same.
 TEST(WriteColumns, whole_numbers_in_real_arrays)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<double> real_ids = { 12345678, -0.0 };
   const std::vector<float> real_types = { 16777216, 2 };
   const std::vector<double> odd = { 1.5, 1e300 };
   const std::vector<double> none = { std::numeric_limits<double>::quiet_NaN(),
     -std::numeric_limits<double>::infinity() };
-  grains.add("id", ValueType::Float64, real_ids);
-  grains.add("type", ValueType::Float32, real_types);
-  grains.add("mol", ValueType::Float64, odd);
-  grains.add("proc", ValueType::Float64, none);
-  grains.add("mass", ValueType::Float64, real_ids);
-  EXPECT_EQ(write(grains.frame, { "id", "type", "mol", "proc", "mass" }).body,
+  particles.add("id", ValueType::Float64, real_ids);
+  particles.add("type", ValueType::Float32, real_types);
+  particles.add("mol", ValueType::Float64, odd);
+  particles.add("proc", ValueType::Float64, none);
+  particles.add("mass", ValueType::Float64, real_ids);
+  EXPECT_EQ(write(particles.frame, { "id", "type", "mol", "proc", "mass" }).body,
     "id type mol proc mass\n12345678 16777216 1.5 nan 1.23457e+07\n0 2 1e+300 -inf -0\n");
   DumpFormat sorted;
   sorted.sort_by_id = true;
-  const Text text = write(grains.frame, { "id" }, sorted);
+  const Text text = write(particles.frame, { "id" }, sorted);
   EXPECT_EQ(text.body, "id\n12345678\n0\n");
   EXPECT_EQ(text.said, "no integer array 'id': the rows are not sorted\n");
 }
 
 TEST(WriteColumns, radius_and_diameter)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<float> radius = { 0.25F, 0.1F };
-  grains.add("radius", ValueType::Float32, radius);
+  particles.add("radius", ValueType::Float32, radius);
   EXPECT_EQ(
-    write(grains.frame, { "diameter", "radius" }).body, "diameter radius\n0.5 0.25\n0.2 0.1\n");
-  EXPECT_EQ(write_binary(grains.frame, { "diameter" }),
+    write(particles.frame, { "diameter", "radius" }).body, "diameter radius\n0.5 0.25\n0.2 0.1\n");
+  EXPECT_EQ(write_binary(particles.frame, { "diameter" }),
     (std::vector<double>{ 0.5, 2 * static_cast<double>(0.1F) }));
   const std::vector<std::int32_t> diameter = { 3, 4 };
-  grains.frame.arrays = {};
-  grains.add("diameter", ValueType::Int32, diameter);
-  EXPECT_EQ(write(grains.frame, { "radius" }).body, "radius\n1.5\n2\n");
+  particles.frame.arrays = {};
+  particles.add("diameter", ValueType::Int32, diameter);
+  EXPECT_EQ(write(particles.frame, { "radius" }).body, "radius\n1.5\n2\n");
   DumpFormat sorted;
   sorted.sort_by_id = true;
-  grains.add("id", ValueType::Int64, ids);
-  EXPECT_EQ(write(grains.frame, { "radius" }, sorted).body, "radius\n2\n1.5\n");
+  particles.add("id", ValueType::Int64, ids);
+  EXPECT_EQ(write(particles.frame, { "radius" }, sorted).body, "radius\n2\n1.5\n");
 
   // a file with diameters is read as radii, and gets its diameters back, and no radii
   const std::string text = one_frame("id diameter x y z", "1 0.3 0 0 0\n2 1e-05 1 1 1\n");
@@ -289,41 +290,41 @@ TEST(WriteColumns, radius_and_diameter)
 
 TEST(WriteColumns, images)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<std::int32_t> image = { 1, -2, 0, 1048576, 0, -1048576 };
-  grains.add("image", ValueType::Int32, image);
-  EXPECT_EQ(write(grains.frame, { "ix", "iy", "iz", "xu" }).body,
+  particles.add("image", ValueType::Int32, image);
+  EXPECT_EQ(write(particles.frame, { "ix", "iy", "iz", "xu" }).body,
     "ix iy iz xu\n1 -2 0 11\n1048576 0 -1048576 1.04858e+07\n");
-  EXPECT_EQ(write(grains.frame, { "image" }).body, "ix iy iz\n1 -2 0\n1048576 0 -1048576\n");
+  EXPECT_EQ(write(particles.frame, { "image" }).body, "ix iy iz\n1 -2 0\n1048576 0 -1048576\n");
   const std::vector<std::int64_t> one = { 5, 6 };
-  grains.frame.arrays = {};
-  grains.add("iy", ValueType::Int64, one);
-  const Text text = write(grains.frame, { "ix", "iy", "iz" });
+  particles.frame.arrays = {};
+  particles.add("iy", ValueType::Int64, one);
+  const Text text = write(particles.frame, { "ix", "iy", "iz" });
   EXPECT_EQ(text.body, "ix iy iz\n0 5 0\n0 6 0\n");
   EXPECT_EQ(text.said, "");
 }
 
 TEST(WriteColumns, elements)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<std::string> elements = { "Fe", "C" };
-  grains.add("element", ValueType::Text, elements);
-  EXPECT_EQ(write(grains.frame, { "element" }).body, "element\nFe\nC\n");
-  EXPECT_EQ(write_binary(grains.frame, { "element" }), (std::vector<double>{ 1, 1 }));
-  grains.add("type", ValueType::Int32, types);
-  EXPECT_EQ(write_binary(grains.frame, { "element" }), (std::vector<double>{ 2, 1 }));
+  particles.add("element", ValueType::Text, elements);
+  EXPECT_EQ(write(particles.frame, { "element" }).body, "element\nFe\nC\n");
+  EXPECT_EQ(write_binary(particles.frame, { "element" }), (std::vector<double>{ 1, 1 }));
+  particles.add("type", ValueType::Int32, types);
+  EXPECT_EQ(write_binary(particles.frame, { "element" }), (std::vector<double>{ 2, 1 }));
   const std::vector<std::string> words = { "a", "b" };
-  grains.add("state", ValueType::Text, words);
+  particles.add("state", ValueType::Text, words);
   std::string error;
-  write_binary(grains.frame, { "state" }, &error);
+  write_binary(particles.frame, { "state" }, &error);
   EXPECT_EQ(error, "column 'state': expected numbers for a binary dump, got texts");
   for (const auto& [bad, shown] : { std::pair("two words", "two words"), std::pair("", ""),
          std::pair(" x", " x"), std::pair("line\n", "line\\n"), std::pair("tab\t", "tab\\t") })
   {
     const std::vector<std::string> texts = { "good", bad };
-    grains.frame.arrays = {};
-    grains.add("state", ValueType::Text, texts);
-    EXPECT_EQ(write(grains.frame, { "state" }).error,
+    particles.frame.arrays = {};
+    particles.add("state", ValueType::Text, texts);
+    EXPECT_EQ(write(particles.frame, { "state" }).error,
       std::string("column 'state': expected a word, got '") + shown + "'");
   }
 }
@@ -451,46 +452,46 @@ TEST(WriteColumns, default_columns)
   EXPECT_EQ(less.body, "vx id xs ys zs vy vz speed fx fy fz\n1 1 0.5 0.5 0.5 2 3 3.75 7 8 9\n");
   EXPECT_EQ(less.said, "columns of the input without an array are left out: q\n");
 
-  TwoGrains grains;
-  grains.add("type", ValueType::Int32, types);
-  grains.add("id", ValueType::Int64, ids);
-  EXPECT_EQ(write(grains.frame, {}).body, "id type x y z\n7 2 1 2 3\n3 1 4 5 6\n");
+  TwoParticles particles;
+  particles.add("type", ValueType::Int32, types);
+  particles.add("id", ValueType::Int64, ids);
+  EXPECT_EQ(write(particles.frame, {}).body, "id type x y z\n7 2 1 2 3\n3 1 4 5 6\n");
 }
 
 /// Arrays that say the same in their name as another column are not mixed up with it.
 TEST(WriteColumns, first_of_two_arrays)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<double> one = { 1, 2 };
   const std::vector<double> three = { 3, 4, 5, 6, 7, 8 };
-  grains.add("v", ValueType::Float64, one);
-  grains.add("v", ValueType::Float64, three);
-  EXPECT_EQ(write(grains.frame, { "v", "vy" }).body, "v vy\n1 4\n2 7\n");
+  particles.add("v", ValueType::Float64, one);
+  particles.add("v", ValueType::Float64, three);
+  EXPECT_EQ(write(particles.frame, { "v", "vy" }).body, "v vy\n1 4\n2 7\n");
 }
 
 /// An array with the very name of a column comes before the one that the column is a part of, whatever other columns
 /// there are.
 TEST(WriteColumns, arrays_named_like_parts)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<double> vx = { 70, 80 };
   const std::vector<double> v = { 3, 4, 5, 6, 7, 8 };
-  grains.add("v", ValueType::Float64, v);
-  grains.add("vx", ValueType::Float64, vx);
-  EXPECT_EQ(write(grains.frame, { "vx" }).body, "vx\n70\n80\n");
-  EXPECT_EQ(write(grains.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n70 4 5\n80 7 8\n");
+  particles.add("v", ValueType::Float64, v);
+  particles.add("vx", ValueType::Float64, vx);
+  EXPECT_EQ(write(particles.frame, { "vx" }).body, "vx\n70\n80\n");
+  EXPECT_EQ(write(particles.frame, { "vx", "vy", "vz" }).body, "vx vy vz\n70 4 5\n80 7 8\n");
 }
 
 TEST(WriteColumns, two_names_that_are_one_word)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<double> one = { 1, 2 };
   const std::vector<double> two = { 3, 4 };
-  grains.add("id", ValueType::Int64, ids);
-  grains.add("type", ValueType::Int32, types);
-  grains.add("my array", ValueType::Float64, one);
-  grains.add("my_array", ValueType::Float64, two);
-  const Text text = write(grains.frame, {});
+  particles.add("id", ValueType::Int64, ids);
+  particles.add("type", ValueType::Int32, types);
+  particles.add("my array", ValueType::Float64, one);
+  particles.add("my_array", ValueType::Float64, two);
+  const Text text = write(particles.frame, {});
   EXPECT_EQ(text.body, "id type x y z my_array\n7 2 1 2 3 3\n3 1 4 5 6 4\n");
   EXPECT_EQ(text.said, "arrays without a column of their own are left out: my array\n");
 }
@@ -498,30 +499,30 @@ TEST(WriteColumns, two_names_that_are_one_word)
 /// Nobody asked for the texts: they do not keep a binary dump from being written.
 TEST(WriteColumns, texts_that_nobody_asked_for)
 {
-  TwoGrains grains;
+  TwoParticles particles;
   const std::vector<std::string> words = { "a", "b" };
-  grains.add("id", ValueType::Int64, ids);
-  grains.add("type", ValueType::Int32, types);
-  grains.add("word", ValueType::Text, words);
+  particles.add("id", ValueType::Int64, ids);
+  particles.add("type", ValueType::Int32, types);
+  particles.add("word", ValueType::Text, words);
   const Folder folder;
   DumpFormat format;
   format.binary = true;
-  const Written written = write_dump(folder.path("a"), Frames{ grains.frame }, format);
+  const Written written = write_dump(folder.path("a"), Frames{ particles.frame }, format);
   EXPECT_EQ(written.error, "");
   EXPECT_EQ(written.said, "arrays without a column of their own are left out: word\n");
   format.columns = { "id", "type", "x", "y", "z" };
-  EXPECT_EQ(written.bytes, write_dump(folder.path("b"), Frames{ grains.frame }, format).bytes);
+  EXPECT_EQ(written.bytes, write_dump(folder.path("b"), Frames{ particles.frame }, format).bytes);
 }
 
 /// Points may be of any type, also where the box is made from them.
 TEST(WriteColumns, points_of_integers)
 {
   const std::vector<std::int64_t> points = { 1, 2, 3, 4, 5, 6 };
-  TwoGrains grains;
-  grains.frame.points = view_rows("points", ValueType::Int64, points.data(), 3);
-  grains.frame.has_box = false;
-  EXPECT_EQ(write(grains.frame, { "x", "ys" }).body, "x ys\n1 0\n4 1\n");
-  EXPECT_EQ(write_binary(grains.frame, { "x", "zs" }), (std::vector<double>{ 1, 0, 4, 1 }));
+  TwoParticles particles;
+  particles.frame.points = view_rows("points", ValueType::Int64, points.data(), 3);
+  particles.frame.has_box = false;
+  EXPECT_EQ(write(particles.frame, { "x", "ys" }).body, "x ys\n1 0\n4 1\n");
+  EXPECT_EQ(write_binary(particles.frame, { "x", "zs" }), (std::vector<double>{ 1, 0, 4, 1 }));
 }
 
 TEST(WriteColumns, image_counts_that_are_none)
@@ -530,10 +531,10 @@ TEST(WriteColumns, image_counts_that_are_none)
   for (const auto& [count, text] :
     { std::pair(nan, "nan"), std::pair(2.5, "2.500000"), std::pair(-3e9, "-3000000000.000000") })
   {
-    TwoGrains grains;
+    TwoParticles particles;
     const std::vector<double> counts = { 1, count };
-    grains.add("ix", ValueType::Float64, counts);
-    EXPECT_EQ(write(grains.frame, { "ix" }).error,
+    particles.add("ix", ValueType::Float64, counts);
+    EXPECT_EQ(write(particles.frame, { "ix" }).error,
       std::string("column 'ix': expected image counts of whole numbers below 2^31, got ") + text);
   }
 }

@@ -292,7 +292,7 @@ TEST(WritePositions, moved_points)
   EXPECT_NE(exact.find(" 0.799999999"), exact.npos) << exact;
 }
 
-/// A grain that was lost stays lost, and takes no other coordinate with it. -0 is that of printf, as in (x - lo) / length.
+/// A particle that was lost stays lost, and takes no other coordinate with it. -0 is that of printf, as in (x - lo) / length.
 TEST(WritePositions, not_finite)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();

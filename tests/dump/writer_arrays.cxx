@@ -45,7 +45,7 @@ TYPED_TEST(WriterIntegers, HaveAllTheirDigits)
   const Value least = std::numeric_limits<Value>::min();
   const Value most = wide ? static_cast<Value>(std::numeric_limits<std::int64_t>::max())
                           : std::numeric_limits<Value>::max();
-  auto data = MakeGrains(3);
+  auto data = MakeParticles(3);
   AddArray<TypeParam>(data, "id", { 1, 2, 3 });
   AddArray<TypeParam>(data, "n", { least, most, 7 });
   Writer writer(NewName("a.dump"));
@@ -56,11 +56,11 @@ TYPED_TEST(WriterIntegers, HaveAllTheirDigits)
   EXPECT_TRUE(writer.Said->Warnings.empty());
 }
 
-/// A writer of three grains with the array n, whose column alone is written.
+/// A writer of three particles with the array n, whose column alone is written.
 template <typename Fill>
 Lines RowsOf(const char* columns, const char* format, const Fill& fill)
 {
-  auto data = MakeGrains(3);
+  auto data = MakeParticles(3);
   fill(data);
   Writer writer(NewName("a.dump"));
   writer->SetInputData(data);
@@ -150,7 +150,7 @@ TEST(WriterArrays, Texts)
 
 TEST(WriterArrays, FloatPointsAndNoOtherThanPoints)
 {
-  auto data = MakeGrains(2);
+  auto data = MakeParticles(2);
   data->GetPoints()->SetDataTypeToFloat();
   data->GetPoints()->SetNumberOfPoints(2);
   data->GetPoints()->SetPoint(0, 0.1, 0.2, 0.3);
@@ -166,7 +166,7 @@ TEST(WriterArrays, FloatPointsAndNoOtherThanPoints)
 
 TEST(WriterArrays, WhatIsNoColumnIsLeftOutWithAWarning)
 {
-  auto data = MakeGrains(2);
+  auto data = MakeParticles(2);
   AddArray<vtkIntArray>(data, "id", { 1, 2 });
   AddArray<vtkIntArray>(data, "type", { 1, 2 });
   vtkNew<vtkVariantArray> variants;
@@ -187,7 +187,7 @@ TEST(WriterArrays, WhatIsNoColumnIsLeftOutWithAWarning)
 
 TEST(WriterArrays, OfAnotherLengthThanThePointsAreAnError)
 {
-  auto data = MakeGrains(3);
+  auto data = MakeParticles(3);
   AddArray<vtkDoubleArray>(data, "n", { 1, 2 });
   Writer writer(NewName("a.dump"));
   writer->SetInputData(data);
@@ -201,7 +201,7 @@ TEST(WriterArrays, OfAnotherLengthThanThePointsAreAnError)
 
 TEST(WriterArrays, DuplicatesAreLeftOut)
 {
-  auto data = MakeGrains(5);
+  auto data = MakeParticles(5);
   AddArray<vtkUnsignedCharArray>(data, vtkDataSetAttributes::GhostArrayName(),
     { 0, vtkDataSetAttributes::DUPLICATEPOINT, vtkDataSetAttributes::HIDDENPOINT, 0,
       vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT });
@@ -216,7 +216,7 @@ TEST(WriterArrays, NoPoints)
 {
   for (const bool arrays : { false, true })
   {
-    auto data = MakeGrains(0);
+    auto data = MakeParticles(0);
     if (arrays)
     {
       AddArray<vtkIntArray>(data, "id", {});
@@ -237,7 +237,7 @@ TEST(WriterArrays, NoPoints)
 
 TEST(WriterArrays, ABoxOfTheWritersOwn)
 {
-  auto data = MakeGrains(1);
+  auto data = MakeParticles(1);
   Writer writer(NewName("a.dump"));
   writer->SetInputData(data);
   writer->SetColumns("x xs");
@@ -254,9 +254,9 @@ TEST(WriterArrays, ABoxOfTheWritersOwn)
     std::string::npos);
 }
 
-TEST(WriterArrays, ABoxOfTheGrainsAndNumbersOfFrames)
+TEST(WriterArrays, ABoxOfTheParticlesAndNumbersOfFrames)
 {
-  auto data = MakeGrains(3);
+  auto data = MakeParticles(3);
   data->GetFieldData()->Initialize();
   AddArray<vtkDoubleArray>(data, "radius", { 0.5, 1, 0.25 });
   Writer writer(NewName("a.dump"));

@@ -28,7 +28,7 @@ void ExpectOld(Writer& writer)
 
 vtkSmartPointer<vtkPolyData> Large()
 {
-  auto data = MakeGrains(200000);
+  auto data = MakeParticles(200000);
   return data;
 }
 
@@ -54,7 +54,7 @@ TEST(WriterErrors, NothingToWriteOrNowhere)
   writer.ExpectError(vtkErrorCode::FileFormatError,
     std::string(writer->GetFileName()) + ": expected a vtkPointSet to write, got a vtkDataObject");
   EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
-  writer->SetInputData(MakeGrains(1));
+  writer->SetInputData(MakeParticles(1));
   writer->SetFileName(nullptr);
   writer.ExpectError(vtkErrorCode::NoFileNameError, "no file to write: set FileName first");
   writer->SetFileName("");
@@ -66,8 +66,8 @@ TEST(WriterErrors, OtherThanPoints)
   Writer writer(OldName());
   const std::string path = writer->GetFileName();
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeGrains(2));
-  blocks->SetBlock(1, MakeGrains(2));
+  blocks->SetBlock(0, MakeParticles(2));
+  blocks->SetBlock(1, MakeParticles(2));
   writer->SetInputData(blocks);
   writer.ExpectError(vtkErrorCode::FileFormatError,
     path +
@@ -103,7 +103,7 @@ TEST(WriterErrors, PropertiesOutOfRangeChangeNothing)
 TEST(WriterErrors, PropertiesThatMakeNoSense)
 {
   Writer writer(OldName());
-  writer->SetInputData(MakeGrains(2));
+  writer->SetInputData(MakeParticles(2));
   const auto expect = [&](const std::string& text)
   { writer.ExpectError(vtkErrorCode::UnknownError, text); };
   writer->SetNumberFormat("%d");
@@ -249,7 +249,7 @@ TEST(WriterErrors, TheTimeThatWasShownComesBack)
 TEST(WriterErrors, UpdateWritesToo)
 {
   Writer writer(NewName("a.dump"));
-  writer->SetInputData(MakeGrains(2));
+  writer->SetInputData(MakeParticles(2));
   writer->Update();
   EXPECT_TRUE(writer->GetWritten());
   EXPECT_EQ(ReadPlain(writer->GetFileName()).at(0).rows, 2u);

@@ -10,7 +10,7 @@ from paraview.simple import *
 from writing import check_nothing_left, check_properties, check_refused, enter_empty_folder, good
 
 enter_empty_folder()
-GRAINS = "id type x y z ix iy iz vx vy vz radius"  # of grains.bin
+PARTICLES = "id type x y z ix iy iz vx vy vz radius"  # of grains.bin
 LIGGGHTS = {"Dialect": "LIGGGHTS"}
 
 
@@ -61,12 +61,12 @@ for box in ("ortho", "tri"):
     save_and_compare(f"{box}_unwrapped.dump", "a.dump", WriteUnits=1, WriteTime=1, NumberFormat="%.17g")
 
 # LIGGGHTS writes a chunk a process, this one as few as can be: the rows are the same
-reader = open_all("grains.bin", ColumnNames=GRAINS)
+reader = open_all("grains.bin", ColumnNames=PARTICLES)
 granular.save(reader, "a.bin", WriteTimeSteps=1, **LIGGGHTS)
-for mine, other in zip(plain_dump.read_binary("a.bin", GRAINS),
-                       plain_dump.read_binary(good("grains.bin"), GRAINS), strict=True):
+for mine, other in zip(plain_dump.read_binary("a.bin", PARTICLES),
+                       plain_dump.read_binary(good("grains.bin"), PARTICLES), strict=True):
     assert (mine.timestep, mine.bounds.tolist()) == (other.timestep, other.bounds.tolist())
-    assert all((mine.columns[name] == other.columns[name]).all() for name in GRAINS.split())
+    assert all((mine.columns[name] == other.columns[name]).all() for name in PARTICLES.split())
 
 # ---- what is asked for ---------------------------------------------------------------------------
 
@@ -85,26 +85,26 @@ assert plain_dump.read("a.dump")[0].columns["x"] == ["%.5g" % x for x in exact.n
 
 # ---- names -----------------------------------------------------------------------------------------
 
-grains = open_all("grains.dump")
+particles = open_all("grains.dump")
 whole = content(good("grains.dump"))
 frames = [b"ITEM: TIMESTEP" + part for part in whole.split(b"ITEM: TIMESTEP")[1:]]
 for name in ("a.dump", "a.lammpstrj", "a.dump.gz", "a.lammpstrj.gz"):
-    SaveData(name, grains, WriteTimeSteps=1, **LIGGGHTS)
+    SaveData(name, particles, WriteTimeSteps=1, **LIGGGHTS)
     assert content(name) == whole, name
-SaveData("a.dump.zst", grains, WriteTimeSteps=1, **LIGGGHTS)
+SaveData("a.dump.zst", particles, WriteTimeSteps=1, **LIGGGHTS)
 again = GranularDumpReader(FileNames=[os.path.abspath("a.dump.zst")])
 again.PointArrayStatus = list(again.GetProperty("PointArrayStatus").Available)
 granular.save(again, "again.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert content("again.dump") == whole
 for name in ("dump.1000", "x.liggghts", "no_ending", "with blank.dump"):
-    granular.save(grains, name, writer="GranularDumpWriter", WriteTimeSteps=1, **LIGGGHTS)
+    granular.save(particles, name, writer="GranularDumpWriter", WriteTimeSteps=1, **LIGGGHTS)
     assert content(name) == whole, name
 
-granular.save(grains, "step_*.dump", WriteTimeSteps=1, **LIGGGHTS)
+granular.save(particles, "step_*.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert [content(f"step_{step}.dump") for step in (0, 1000, 2000)] == frames
-granular.save(grains, "process_%.dump", WriteTimeSteps=1, **LIGGGHTS)
+granular.save(particles, "process_%.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert content("process_0.dump") == whole
-granular.save(grains, "both_*.%.dump.gz", WriteTimeSteps=1, **LIGGGHTS)
+granular.save(particles, "both_*.%.dump.gz", WriteTimeSteps=1, **LIGGGHTS)
 assert [content(f"both_{step}.0.dump.gz") for step in (0, 1000, 2000)] == frames
 
 # ---- the time that is shown ------------------------------------------------------------------------
@@ -131,7 +131,7 @@ for source in (fresh, some):
 # ---- properties ------------------------------------------------------------------------------------
 
 writer = check_properties(
-    "GranularDumpWriter", grains, Style="Custom", Dialect="Automatic", Columns="", Scaled=1, Image=0,
+    "GranularDumpWriter", particles, Style="Custom", Dialect="Automatic", Columns="", Scaled=1, Image=0,
     NumberFormat="Automatic",
     SortById=0, WriteTimeSteps=0, WriteUnits=0, WriteTime=0, BoxOrigin=[0] * 3, BoxVectors=[0] * 9,
     Boundary="", ParallelMode="Gather", Threads=0)
@@ -146,6 +146,6 @@ for name, words in (("Style", ("Atom", "Custom")), ("Dialect", ("LIGGGHTS", "LAM
         pass
     else:
         raise AssertionError(f"{name} took a word that it does not know")
-check_refused(grains, "never.dump", AttributeError, Colour=1)
-check_refused(grains, "never.dump", ValueError, Dialect="Latin")
+check_refused(particles, "never.dump", AttributeError, Colour=1)
+check_refused(particles, "never.dump", ValueError, Dialect="Latin")
 check_nothing_left()

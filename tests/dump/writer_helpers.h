@@ -87,7 +87,7 @@ struct Writer
 };
 
 /// Grains in the box 0 10 0 10 0 10 at (i, 0.5, 0.25), i from 0.
-inline vtkSmartPointer<vtkPolyData> MakeGrains(vtkIdType count)
+inline vtkSmartPointer<vtkPolyData> MakeParticles(vtkIdType count)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;

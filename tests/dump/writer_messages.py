@@ -20,13 +20,13 @@ assert set(frame.columns["type"]) == {"1"}
 assert [name for name in frame.columns if name.startswith("Normals")] == [f"Normals[{i}]" for i in (1, 2, 3)]
 
 # a filter of ParaView that makes new points does not keep ids
-grains = GranularDumpReader(FileNames=[os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")])
-clip = Clip(Input=grains, ClipType="Plane", Scalars=["POINTS", "radius"])
+particles = GranularDumpReader(FileNames=[os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")])
+clip = Clip(Input=particles, ClipType="Plane", Scalars=["POINTS", "radius"])
 clip.ClipType.Origin, clip.ClipType.Normal = [0, 0, 0.05], [0, 0, 1]
 clip.UpdatePipeline(2000)
 SaveData("clip.dump", clip, NumberFormat="%.17g")
 frame, = plain_dump.read("clip.dump")
-all_of_them = plain_dump.read(grains.FileNames[0])[2]
+all_of_them = plain_dump.read(particles.FileNames[0])[2]
 low = all_of_them.numbers("z") <= 0.05
 assert frame.rows == low.sum() > 0 and frame.timestep == 2000 and frame.bounds == all_of_them.bounds
 assert sorted(frame.numbers("x")) == sorted(all_of_them.numbers("x")[low])
@@ -36,13 +36,13 @@ assert sorted(frame.numbers("x")) == sorted(all_of_them.numbers("x")[low])
 with open("messages.dump", "w") as file:
     file.write("the old file")
 before = sorted(os.listdir("."))
-group = GroupDatasets(Input=[grains, sphere])
+group = GroupDatasets(Input=[particles, sphere])
 for source, path, properties in (
-        (group, "messages.dump", {}), (grains, "gone/messages.dump", {}),
-        (grains, "messages.dump", {"NumberFormat": "%d"}),
-        (grains, "messages.dump", {"Columns": "id colour"}),
-        (grains, "messages.dump", {"Boundary": "pp pp"}),
-        (grains, "messages.dump", {"WriteUnits": 1})):
+        (group, "messages.dump", {}), (particles, "gone/messages.dump", {}),
+        (particles, "messages.dump", {"NumberFormat": "%d"}),
+        (particles, "messages.dump", {"Columns": "id colour"}),
+        (particles, "messages.dump", {"Boundary": "pp pp"}),
+        (particles, "messages.dump", {"WriteUnits": 1})):
     SaveData(path, source, **properties)
     try:
         granular.save(source, path, **properties)
@@ -53,6 +53,6 @@ for source, path, properties in (
     with open("messages.dump") as file:
         assert file.read() == "the old file"
     assert sorted(os.listdir(".")) == before, os.listdir(".")
-SaveData("merged.dump", MergeBlocks(Input=GroupDatasets(Input=[grains])))
+SaveData("merged.dump", MergeBlocks(Input=GroupDatasets(Input=[particles])))
 assert plain_dump.read("merged.dump")[0].rows == 1200
 print("alive")

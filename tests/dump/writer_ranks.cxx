@@ -63,7 +63,7 @@ protected:
     }
     const int first = All * before / holders;
     const int end = this->Has(piece) ? All * (before + 1) / holders : first;
-    const auto data = MakeGrains(end - first);
+    const auto data = MakeParticles(end - first);
     std::vector<int> ids;
     for (int i = first; i < end; ++i)
     {

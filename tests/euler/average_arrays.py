@@ -70,14 +70,14 @@ assert abs(together - everything["sigma_contact"]).max() < 1e-15 * abs(together)
 # ---- kernels, by numpy --------------------------------------------------------------------------------------------------
 
 run = Run("periodic_bed", 70000)
-lo, counts = run.grains.origin, numpy.array(COUNTS)
+lo, counts = run.particles.origin, numpy.array(COUNTS)
 spacing = run.size / counts
 
 
 def density_by_kernel(kind, width, bounded):
     """Each particle against all cells of the lattice that it may reach."""
     mass = numpy.zeros(counts[::-1])
-    for x, m in zip(run.grains.x, run.grains.mass):
+    for x, m in zip(run.particles.x, run.particles.mass):
         squares, numbers = [], []
         for axis in range(3):
             inside = axis == 2 and bounded
@@ -99,7 +99,7 @@ for kind in (GAUSSIAN, LUCY, HEAVISIDE):
 # 0, the default, is the largest diameter; with Centre and Overlap the width does not matter
 assert granular.vtkGranularEulerAverage().GetKernelWidth() == 0
 for kind in (GAUSSIAN, LUCY, HEAVISIDE):
-    widths = [bed.update(Weights=kind, KernelWidth=width) for width in (0, 2 * run.grains.radius.max(), 0.0059)]
+    widths = [bed.update(Weights=kind, KernelWidth=width) for width in (0, 2 * run.particles.radius.max(), 0.0059)]
     assert all(widths[0][name].tobytes() == widths[1][name].tobytes() for name in ALL)
     assert widths[0]["density"].tobytes() != widths[2]["density"].tobytes()
 for kind in (CENTRE, OVERLAP):
@@ -272,8 +272,8 @@ for weights in range(5):
     assert not moving.filter.GetOutputDataObject(0).GetFieldData().HasArray("timestep")
 whole = Averages("moving", CellCounts=(1, 1, 1), Weights=CENTRE, TimeAverage=True).update()
 runs = [Run("moving", step) for step in (3000, 3020)]
-ends, grains = sum(run.counted.sum() for run in runs), sum(len(run.grains.ids) for run in runs)
-assert abs(whole["coordination"][0, 0] - ends / grains) < 1e-15 * ends
+ends, particles = sum(run.counted.sum() for run in runs), sum(len(run.particles.ids) for run in runs)
+assert abs(whole["coordination"][0, 0] - ends / particles) < 1e-15 * ends
 normals = numpy.concatenate([plain.products(run.normals, run.normals) for run in runs]).mean(axis=0)
 assert abs(whole["fabric"][0] - normals).max() < 1e-14
 table = Averages("moving", CellCounts=COUNTS, OutputType=PROFILE, TimeAverage=True, Weights=GAUSSIAN).update()

@@ -26,7 +26,7 @@ def stress_of(found, part="contact"):
 
 
 runs = {name: Run(name, step) for name, step in STEPS.items()}
-boxes = {name: (run.grains.origin, run.grains.origin + run.size) for name, run in runs.items()}
+boxes = {name: (run.particles.origin, run.particles.origin + run.size) for name, run in runs.items()}
 # the cells of a tilted box: as many and as large as those of a straight one of its lengths, which has the same volume
 bounds = {name: {"Bounds": numpy.stack(boxes[name], axis=1).ravel().tolist()} if name in ROWS else {} for name in runs}
 volumes = {name: run.size.prod() / SIZE for name, run in runs.items()}
@@ -51,7 +51,7 @@ for name, run in runs.items():
             ends = parts.T @ run.counted
             expected = numpy.divide(ends, number, out=numpy.zeros(SIZE), where=number > 0)
             assert error(found["coordination"][:, 0], expected) < 1e-12
-            mass = numpy.bincount(cells, run.grains.mass, minlength=SIZE)
+            mass = numpy.bincount(cells, run.particles.mass, minlength=SIZE)
             assert error(found["density"][:, 0] * volumes[name], mass) < 1e-14
 
 # ---- all cells together have what all particles and contacts have, for any weights -----------------------------------
@@ -63,16 +63,16 @@ for name, run in runs.items():
     averages = Averages(name, CellCounts=COUNTS, KernelBounds=INSIDE, **bounds[name])
     without = Averages(name, lines=False, walls=False, CellCounts=COUNTS, KernelBounds=INSIDE, **bounds[name])
     scale = abs(run.virial).sum(axis=0)
-    momentum = run.grains.mass[:, None] * run.v
+    momentum = run.particles.mass[:, None] * run.v
     # a kernel needs cells that periodic images share: tilts of whole cells
     for weights in (CENTRE, OVERLAP) if name in ROWS else range(5):
         found = averages.update(step, Weights=weights)
         total = stress_of(found).sum(axis=0) * volumes[name]
         assert (abs(total - sums) < 1e-13 * scale).all(), (name, weights, total, sums)
-        assert abs(found["density"].sum() * volumes[name] / run.grains.mass.sum() - 1) < 1e-13
+        assert abs(found["density"].sum() * volumes[name] / run.particles.mass.sum() - 1) < 1e-13
         assert (abs(found["momentum"].sum(axis=0) * volumes[name] - momentum.sum(axis=0))
                 < 1e-13 * abs(momentum).sum(axis=0)).all()
-        assert abs(found["volumefraction"].sum() * volumes[name] / (4 / 3 * numpy.pi * (run.grains.radius**3).sum()) - 1) < 1e-12
+        assert abs(found["volumefraction"].sum() * volumes[name] / (4 / 3 * numpy.pi * (run.particles.radius**3).sum()) - 1) < 1e-12
         # the parts, and what the definitions say
         kinetic = stress_of(found, "kinetic")
         assert error(kinetic + stress_of(found), stress_of(found, "")) < 1e-15
@@ -90,7 +90,7 @@ for name, run in runs.items():
         assert error(alone["pressure"][:, 0], -kinetic[:, :3].sum(axis=1) / 3) < 1e-14
         # in all of space less is in the cells where there are walls
         found = averages.update(step, Weights=weights, KernelBounds=ALL_SPACE)
-        inside = found["density"].sum() * volumes[name] / run.grains.mass.sum()
+        inside = found["density"].sum() * volumes[name] / run.particles.mass.sum()
         lost = 1 - inside  # the kernel of Heaviside is short
         if run.periodic.all():
             assert abs(lost) < 1e-13, lost
@@ -116,8 +116,8 @@ for name, run in runs.items():
 # accelerated. A layer has the mean of its planes.
 name, run = "periodic_bed", runs["periodic_bed"]
 area = run.size[0] * run.size[1]
-carried = run.grains.f[:, 2] - run.grains.mass * plain.GRAVITY[2]
-assert abs(run.grains.f[:, 2]).max() < 1e-6 * run.grains.mass.max() * 9.81  # at rest
+carried = run.particles.f[:, 2] - run.particles.mass * plain.GRAVITY[2]
+assert abs(run.particles.f[:, 2]).max() < 1e-6 * run.particles.mass.max() * 9.81  # at rest
 LAYERS, TOP = 31, 0.031
 profile = Averages(name, OutputType=PROFILE, CellCounts=(9, 9, LAYERS), Bounds=(1, -1, 1, -1, 0, TOP), Weights=OVERLAP)
 output = profile.output()
@@ -125,11 +125,11 @@ assert profile.said == [] and output.IsA("vtkTable") and output.GetNumberOfRows(
 found = profile.update()
 positions = found["position"][:, 0]
 assert abs(positions - (numpy.arange(LAYERS) + 0.5) * TOP / LAYERS).max() < 1e-17
-above = numpy.clip((run.grains.x[:, 2] - positions[:, None]) / (TOP / LAYERS) + 0.5, 0, 1) @ carried
+above = numpy.clip((run.particles.x[:, 2] - positions[:, None]) / (TOP / LAYERS) + 0.5, 0, 1) @ carried
 assert abs(found["sigma_contact"][:, 2] * area + above).max() < 1e-12 * above.max()
 floor = plain.Contacts("periodic_bed_walls", 70000).force[:, 2].sum()
 assert abs(-found["sigma_contact"][0, 2] * area / floor - 1) < 1e-13  # nobody's centre is in the lowest layer
-assert abs(floor / (9.81 * run.grains.mass.sum()) - 1) < 1e-9
+assert abs(floor / (9.81 * run.particles.mass.sum()) - 1) < 1e-9
 # smoothed, but the same weight
 for weights in (GAUSSIAN, LUCY):
     smooth = profile.update(Weights=weights, KernelWidth=0.001)

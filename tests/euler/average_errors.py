@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonCore import vtkIntArray
 from vtkmodules.vtkParallelCore import vtkCommunicator
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
-grains = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
+particles = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
 
 
 def cells_of(proxy, time=2000):
@@ -24,7 +24,7 @@ def cells_of(proxy, time=2000):
     return total.GetValue(0)
 
 
-average = GranularEulerAverage(Input=grains)
+average = GranularEulerAverage(Input=particles)
 assert cells_of(average) == 1000
 average.RadiusArray = "no_radius"
 assert cells_of(average) == 0
@@ -52,7 +52,7 @@ for counts, radius in (([6, 6, 6], "radius"), ([6, 6, 6], "no_radius"), ([12, 4,
     assert cells_of(average) == expected, counts
 
 # on the last rank alone
-faulty = ProgrammableFilter(Input=grains, CopyArrays=1, Script="""
+faulty = ProgrammableFilter(Input=particles, CopyArrays=1, Script="""
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 output.VTKObject.ShallowCopy(inputs[0].VTKObject)
 controller = vtkMultiProcessController.GetGlobalController()
@@ -62,7 +62,7 @@ if controller.GetLocalProcessId() == controller.GetNumberOfProcesses() - 1:
 for kind in ("ImageData", "Points"):
     broken = GranularEulerAverage(Input=faulty, Output=kind)
     assert cells_of(broken) == 0, kind
-    broken.Input = grains
+    broken.Input = particles
     assert cells_of(broken) == 1000, kind
 
 # a word in the last frame: no average over time, and each frame once

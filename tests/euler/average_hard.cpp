@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages where numbers are difficult, missing or wrong.
-#include "made_grains.h"
+#include "made_particles.h"
 
 #include "../support/hard_case.h"
 #include "../support/quad.h"
@@ -34,21 +34,21 @@ std::string error_of(const FrameView& frame, const EulerAverageRequest& request)
 
 TEST(EulerAverageHard, VelocitiesCancelAndMassesDiffer)
 {
-  std::vector<Grain> grains;
+  std::vector<Particle> particles;
   for (int i = 0; i < 1000; ++i)
   {
     const double v = 1 + i * 1e-3;
     const double mass = i % 2 == 0 ? 1e6 : 1e-6;
-    grains.push_back({ { 0.5, 0.5, 0.5 }, { v, -v, 0.5 }, 0.01, mass });
-    grains.push_back({ { 0.5, 0.5, 0.5 }, { -v, v, 0.5 }, 0.01, mass });
+    particles.push_back({ { 0.5, 0.5, 0.5 }, { v, -v, 0.5 }, 0.01, mass });
+    particles.push_back({ { 0.5, 0.5, 0.5 }, { -v, v, 0.5 }, 0.01, mass });
   }
-  grains.push_back({ { 0.5, 0.5, 0.5 }, { 1e-12, 0, 0.5 }, 0.01, 1e-6 });
+  particles.push_back({ { 0.5, 0.5, 0.5 }, { 1e-12, 0, 0.5 }, 0.01, 1e-6 });
   const EulerCells cells =
-    average(Grains(grains).frame(), request_for(unit_cell, CellWeights::Centre)).cells;
+    average(Grains(particles).frame(), request_for(unit_cell, CellWeights::Centre)).cells;
   Quad mass = 0;
-  for (const Grain& grain : grains)
+  for (const Particle& particle : particles)
   {
-    mass += grain.mass;
+    mass += particle.mass;
   }
   const Quad momentum = Quad(1e-6 * 1e-12); // one rounded product is left
   HardCase hard("sums",
@@ -58,12 +58,12 @@ TEST(EulerAverageHard, VelocitiesCancelAndMassesDiffer)
   EXPECT_EQ(cells.velocities[2], 0.5);
 }
 
-TEST(EulerAverageHard, TenMillionGrainsInOneCell)
+TEST(EulerAverageHard, TenMillionParticlesInOneCell)
 {
   // rows that all are the same: step 0
-  const Grain grain = { { 0.5, 0.5, 0.5 }, { 0.1, -0.7, 3 }, 1e-3, 0.1 };
-  FrameView frame = Grains({ grain }).frame();
-  const Grains one({ grain });
+  const Particle particle = { { 0.5, 0.5, 0.5 }, { 0.1, -0.7, 3 }, 1e-3, 0.1 };
+  FrameView frame = Grains({ particle }).frame();
+  const Grains one({ particle });
   frame = one.frame();
   frame.rows = 10'000'000;
   frame.points->step = 0;
@@ -77,21 +77,21 @@ TEST(EulerAverageHard, TenMillionGrainsInOneCell)
   const Quad rows = 1e7;
   HardCase hard(
     "sums", "10^7 particles in one cell: mass or volume not correctly rounded", "sums", 0);
-  hard.add(averages.sums.mass[0] == static_cast<double>(rows * grain.mass) ? 0 : 1, frame.rows);
+  hard.add(averages.sums.mass[0] == static_cast<double>(rows * particle.mass) ? 0 : 1, frame.rows);
   hard.add(
-    averages.cells.volume_fraction[0] == static_cast<double>(rows * sphere_volume(grain.radius))
+    averages.cells.volume_fraction[0] == static_cast<double>(rows * sphere_volume(particle.radius))
       ? 0
       : 1,
     0);
-  EXPECT_EQ(averages.sums.mass[0], static_cast<double>(rows * grain.mass));
+  EXPECT_EQ(averages.sums.mass[0], static_cast<double>(rows * particle.mass));
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double term = grain.mass * grain.v[axis];
+    const double term = particle.mass * particle.v[axis];
     EXPECT_EQ(averages.sums.momentum[axis], static_cast<double>(rows * term));
   }
   EXPECT_EQ(averages.cells.radius[0], 1e-3);
   EXPECT_EQ(
-    averages.cells.volume_fraction[0], static_cast<double>(rows * sphere_volume(grain.radius)));
+    averages.cells.volume_fraction[0], static_cast<double>(rows * sphere_volume(particle.radius)));
 }
 
 TEST(EulerAverageHard, CellsOneUlpThick)
@@ -101,19 +101,19 @@ TEST(EulerAverageHard, CellsOneUlpThick)
   const Vector3 hi = { 1e6 + 64 * ulp, 1, 1 };
   const EulerGrid grid =
     make_euler_grid({ lo, hi, EulerGridRequest::By::Counts, { 64, 1, 1 }, {} });
-  std::vector<Grain> grains;
+  std::vector<Particle> particles;
   for (int i = 0; i < 64; ++i)
   {
-    grains.push_back({ { 1e6 + i * ulp, 0.5, 0.5 }, { 1.0 * i, 0, 0 }, 0.25, 1 });
+    particles.push_back({ { 1e6 + i * ulp, 0.5, 0.5 }, { 1.0 * i, 0, 0 }, 0.25, 1 });
   }
   const EulerCells centre =
-    average(Grains(grains).frame(), request_for(grid, CellWeights::Centre)).cells;
+    average(Grains(particles).frame(), request_for(grid, CellWeights::Centre)).cells;
   const EulerCells overlap =
-    average(Grains(grains).frame(), request_for(grid, CellWeights::Overlap)).cells;
+    average(Grains(particles).frame(), request_for(grid, CellWeights::Overlap)).cells;
   for (std::size_t i = 0; i < 64; ++i)
   {
     EXPECT_EQ(centre.velocities[3 * i], static_cast<double>(i));
-    // 64 grains, each of which is cut through its middle: a disc of radius 1/4 in a face of 1
+    // 64 particles, each of which is cut through its middle: a disc of radius 1/4 in a face of 1
     EXPECT_NEAR(overlap.volume_fraction[i], 64 * 3.14159265358979324 / 16, 1e-11);
   }
   EXPECT_EQ(error_of({}, request_for(grid, CellWeights::Centre)), "none");
@@ -126,13 +126,13 @@ TEST(EulerAverageHard, FarFromTheOriginAndSmall)
   const Vector3 lo = { 1e6, -1e6, 1e6 };
   const Vector3 hi = { 1e6 + 0x1p-10, -1e6 + 0x1p-10, 1e6 + 0x1p-10 };
   const EulerGrid grid = { lo, hi, { 4, 4, 4 } };
-  Grain grain = { {}, { 1, 2, 3 }, r, 1 };
+  Particle particle = { {}, { 1, 2, 3 }, r, 1 };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    grain.x[axis] = lo[axis] + 0x1p-11; // the corner in the middle
+    particle.x[axis] = lo[axis] + 0x1p-11; // the corner in the middle
   }
   const EulerCells cells =
-    average(Grains({ grain }).frame(), request_for(grid, CellWeights::Overlap)).cells;
+    average(Grains({ particle }).frame(), request_for(grid, CellWeights::Overlap)).cells;
   const double cell = std::pow(0x1p-12, 3);
   int touched = 0;
   for (std::size_t i = 0; i < 64; ++i)
@@ -148,7 +148,7 @@ TEST(EulerAverageHard, FarFromTheOriginAndSmall)
   EXPECT_EQ(touched, 8);
 }
 
-TEST(EulerAverageHard, GrainsMuchSmallerAndMuchLargerThanCells)
+TEST(EulerAverageHard, ParticlesMuchSmallerAndMuchLargerThanCells)
 {
   const EulerGrid grid = { { 0, 0, 0 }, { 3, 3, 3 }, { 3, 3, 3 } };
   const Grains small({ { { 1, 1.5, 1.5 }, { 2, 0, 0 }, 1e-6, 1 } }); // on a face
@@ -165,18 +165,18 @@ TEST(EulerAverageHard, GrainsMuchSmallerAndMuchLargerThanCells)
     1e-5); // its surface is almost a plane through the cell
   EXPECT_NEAR(averages.cells.volume_fraction[22], 1, 1e-6);
   EXPECT_NEAR(averages.cells.volume_fraction[4], 0, 1e-6);
-  EXPECT_EQ(averages.cells.velocities[3 * 22], 2); // 1e-18 of the grain alone
+  EXPECT_EQ(averages.cells.velocities[3 * 22], 2); // 1e-18 of the particle alone
   EXPECT_EQ(averages.cells.velocities[3 * 13], 5); // and here the whole of a small one
 }
 
 /// Exact arithmetic gives 0, which has no sign in files.
 TEST(EulerAverageHard, ParticlesOfOneVelocityHaveNoPressure)
 {
-  std::vector<Grain> grains = random_grains(300, { 0, 0, 0 }, { 1, 1, 1 }, 0.2, 8, 0.1);
-  grains.resize(400, { { 0.01, 0.01, 0.01 }, {}, 1e-3, 1 });
-  for (Grain& grain : grains)
+  std::vector<Particle> particles = random_particles(300, { 0, 0, 0 }, { 1, 1, 1 }, 0.2, 8, 0.1);
+  particles.resize(400, { { 0.01, 0.01, 0.01 }, {}, 1e-3, 1 });
+  for (Particle& particle : particles)
   {
-    grain.v = { 0.1, -1e7 / 3, 3e-11 / 7 };
+    particle.v = { 0.1, -1e7 / 3, 3e-11 / 7 };
   }
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
   {
@@ -184,7 +184,7 @@ TEST(EulerAverageHard, ParticlesOfOneVelocityHaveNoPressure)
       { 1, 7, 40 }) // of the last one most cells have one particle, or none
     {
       const EulerGrid grid = { { 0, 0, 0 }, { 1, 1, 1 }, { count, count, count } };
-      const EulerCells cells = average(Grains(grains).frame(), request_for(grid, weights)).cells;
+      const EulerCells cells = average(Grains(particles).frame(), request_for(grid, weights)).cells;
       for (const double pressure : cells.pressure)
       {
         ASSERT_EQ(pressure, 0) << count;
@@ -192,12 +192,12 @@ TEST(EulerAverageHard, ParticlesOfOneVelocityHaveNoPressure)
       }
     }
   }
-  for (Grain& grain : grains)
+  for (Particle& particle : particles)
   {
-    grain.v[1] += grain.x[0] < 0.5 ? 1e-6 : 0; // some 2000 ulps are a motion
+    particle.v[1] += particle.x[0] < 0.5 ? 1e-6 : 0; // some 2000 ulps are a motion
   }
   const EulerCells cells =
-    average(Grains(grains).frame(), request_for(unit_cell, CellWeights::Centre)).cells;
+    average(Grains(particles).frame(), request_for(unit_cell, CellWeights::Centre)).cells;
   EXPECT_GT(cells.pressure[0], 0);
 }
 
@@ -205,8 +205,8 @@ TEST(EulerAverageHard, ParticlesOfOneVelocityHaveNoPressure)
 TEST(EulerAverageHard, HugeNumbersElsewhereTakeNoDigits)
 {
   const EulerGrid grid = { { 0, 0, 0 }, { 2, 1, 1 }, { 2, 1, 1 } };
-  std::vector<Grain> grains =
-    random_grains(50, { 0.2, 0.2, 0.2 }, { 0.8, 0.8, 0.8 }, 0.1, 3); // in the first cell
+  std::vector<Particle> particles =
+    random_particles(50, { 0.2, 0.2, 0.2 }, { 0.8, 0.8, 0.8 }, 0.1, 3); // in the first cell
   HardCase hard("sums",
     "speeds, masses and stresses of 1e20 to 1e85 in another cell: pressure, stress and temperature "
     "that are not as without them",
@@ -221,20 +221,21 @@ TEST(EulerAverageHard, HugeNumbersElsewhereTakeNoDigits)
       request.fields.temperature = true;
       const auto first_cell = [&]
       {
-        const EulerAverages found = average(Grains(grains).frame(), request, 2);
+        const EulerAverages found = average(Grains(particles).frame(), request, 2);
         return std::array{ found.cells.pressure[0], found.cells.normal_stress[1],
           found.cells.shear_stress[2], found.fields.temperature[0] };
       };
       const auto expected = first_cell();
       for (const double huge : { 1e20, 1e28, 1e60, 1e85 })
       {
-        Grain grain = { { 1.5, 0.5, 0.5 }, { 1, 1, 1 }, 0.1, 1e-3 };
-        grain.v[1] = huge;
-        grains.push_back(grain);
+        Particle particle = { { 1.5, 0.5, 0.5 }, { 1, 1, 1 }, 0.1, 1e-3 };
+        particle.v[1] = huge;
+        particles.push_back(particle);
         hard.add(first_cell() == expected ? 0 : 1);
-        grains.back() = { { 1.5, 0.5, 0.5 }, { 1, 1, 1 }, 0.1, *stress == 0 ? huge : 1, { huge } };
+        particles.back() = { { 1.5, 0.5, 0.5 }, { 1, 1, 1 }, 0.1, *stress == 0 ? huge : 1,
+          { huge } };
         hard.add(first_cell() == expected ? 0 : 1);
-        grains.pop_back();
+        particles.pop_back();
       }
     }
   }
@@ -242,26 +243,26 @@ TEST(EulerAverageHard, HugeNumbersElsewhereTakeNoDigits)
 
 TEST(EulerAverageHard, RowsThatAreNoNumbersAreLeftOutAndCounted)
 {
-  std::vector<Grain> grains = random_grains(10, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1);
-  const Grains good(grains);
+  std::vector<Particle> particles = random_particles(10, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1);
+  const Grains good(particles);
   for (int i = 0; i < 8; ++i)
   {
-    grains.push_back(grains[0]);
+    particles.push_back(particles[0]);
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  grains[10].x[2] = not_a_number;
-  grains[11].v[0] = infinity;
-  grains[12].radius = -infinity;
-  grains[13].mass = not_a_number;
-  grains[14].mass = -1;
-  grains[15].radius = -0.1;
-  grains[16].stress[5] = not_a_number;
-  grains[17].v[1] = 1e300;
+  particles[10].x[2] = not_a_number;
+  particles[11].v[0] = infinity;
+  particles[12].radius = -infinity;
+  particles[13].mass = not_a_number;
+  particles[14].mass = -1;
+  particles[15].radius = -0.1;
+  particles[16].stress[5] = not_a_number;
+  particles[17].v[1] = 1e300;
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
   {
     EulerAverageRequest request = request_for(unit_cell, weights);
     request.arrays.stress = "c_stress";
-    const EulerAverages averages = average(Grains(grains).frame(), request, 2);
+    const EulerAverages averages = average(Grains(particles).frame(), request, 2);
     EXPECT_EQ(averages.broken, 8);
     EXPECT_EQ(averages.cells, average(good.frame(), request).cells);
   }
@@ -269,18 +270,18 @@ TEST(EulerAverageHard, RowsThatAreNoNumbersAreLeftOutAndCounted)
 
 TEST(EulerAverageHard, DuplicatesOfOtherProcessesAreLeftOutAndNotCounted)
 {
-  const Grains grains(random_grains(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1));
+  const Grains particles(random_particles(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1));
   std::vector<unsigned char> ghosts(20);
-  FrameView frame = grains.frame();
+  FrameView frame = particles.frame();
   for (std::size_t i = 0; i < 10; ++i)
   {
     ghosts[2 * i + 1] = FrameView::duplicate_row | 32;
   }
   frame.ghosts = ghosts.data();
-  std::vector<Grain> own;
+  std::vector<Particle> own;
   for (std::size_t i = 0; i < 10; ++i)
   {
-    own.push_back(grains.all[2 * i]);
+    own.push_back(particles.all[2 * i]);
   }
   const EulerAverageRequest request = request_for(unit_cell, CellWeights::Overlap);
   const EulerAverages averages = average(frame, request);
@@ -289,7 +290,7 @@ TEST(EulerAverageHard, DuplicatesOfOtherProcessesAreLeftOutAndNotCounted)
   EXPECT_EQ(averages.outside, 0);
 }
 
-TEST(EulerAverageHard, NoGrainsGiveEmptyCells)
+TEST(EulerAverageHard, NoParticlesGiveEmptyCells)
 {
   const EulerGrid grid = { { 0, 0, 0 }, { 1, 2, 3 }, { 2, 2, 2 } };
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
@@ -305,8 +306,8 @@ TEST(EulerAverageHard, NoGrainsGiveEmptyCells)
 
 TEST(EulerAverageHard, WhatIsMissingIsToldOrAnError)
 {
-  const Grains grains(random_grains(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1));
-  FrameView frame = grains.frame();
+  const Grains particles(random_particles(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1));
+  FrameView frame = particles.frame();
   frame.arrays.clear();
   Notices notices;
   const EulerCells cells =
@@ -326,7 +327,7 @@ TEST(EulerAverageHard, WhatIsMissingIsToldOrAnError)
     "none");
   request.arrays.stress = "v";
   EXPECT_EQ(
-    error_of(grains.frame(), request), "expected an array 'v' with 6 values a particle, got 3");
+    error_of(particles.frame(), request), "expected an array 'v' with 6 values a particle, got 3");
   frame.points.reset();
   EXPECT_EQ(error_of(frame, request_for(unit_cell, CellWeights::Centre)),
     "expected points to average, got none");
@@ -334,13 +335,13 @@ TEST(EulerAverageHard, WhatIsMissingIsToldOrAnError)
 
 TEST(EulerAverageHard, MassesAreMadeOfDensities)
 {
-  std::vector<Grain> grains = random_grains(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1);
-  std::vector<Grain> heavy = grains;
-  for (std::size_t i = 0; i < grains.size(); ++i)
+  std::vector<Particle> particles = random_particles(20, { 0, 0, 0 }, { 1, 1, 1 }, 0.1, 1);
+  std::vector<Particle> heavy = particles;
+  for (std::size_t i = 0; i < particles.size(); ++i)
   {
-    heavy[i].mass = grains[i].mass * sphere_volume(grains[i].radius); // density by its name
+    heavy[i].mass = particles[i].mass * sphere_volume(particles[i].radius); // density by its name
   }
-  const Grains densities(grains);
+  const Grains densities(particles);
   FrameView frame = densities.frame();
   frame.arrays[2].name = "density";
   const EulerAverageRequest request = request_for(unit_cell, CellWeights::Centre);
@@ -400,39 +401,39 @@ TEST(EulerAverageHard, GridsThatAreNoneAreErrors)
 TEST(EulerAverageHard, GridsManyPeriodsLongOrFarAwayHaveAllImages)
 {
   const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp pp pp");
-  const Grains grains({ { { 0.25, 0.5, 0.5 }, { 1, 0, 0 }, 0.2, 1 } });
+  const Grains particles({ { { 0.25, 0.5, 0.5 }, { 1, 0, 0 }, 0.2, 1 } });
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
   {
     for (const double first : { 0.0, 1000.0, -40.0 })
     {
       const EulerGrid grid = { { first, 0, 0 }, { first + 40, 1, 1 }, { 40, 1, 1 } };
       for (const double fraction :
-        average(grains.frame(&box), request_for(grid, weights)).cells.volume_fraction)
+        average(particles.frame(&box), request_for(grid, weights)).cells.volume_fraction)
       {
         EXPECT_NEAR(fraction, sphere_volume(0.2), 1e-14);
       }
     }
     const EulerGrid far = { { 1e30, 0, 0 }, { 2e30, 1, 1 }, { 1, 1, 1 } };
-    EXPECT_NE(error_of(grains.frame(&box), request_for(far, weights)).find("too many images"),
+    EXPECT_NE(error_of(particles.frame(&box), request_for(far, weights)).find("too many images"),
       std::string::npos);
   }
 }
 
-TEST(EulerAverageHard, GrainsLargerThanAPeriodHaveAllImagesOrAreRefused)
+TEST(EulerAverageHard, ParticlesLargerThanAPeriodHaveAllImagesOrAreRefused)
 {
   const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff ff");
-  const auto grains = [](double radius) {
+  const auto particles = [](double radius) {
     return Grains({ { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, radius, 1 } });
   };
   // an endless rod of spheres: 2 r of them cover each place
   for (const double radius : { 16.0, 20.0, 40.0 })
   {
-    const Grains all = grains(radius);
+    const Grains all = particles(radius);
     const EulerAverages averages =
       average(all.frame(&box), request_for(unit_cell, CellWeights::Overlap));
     EXPECT_NEAR(averages.cells.volume_fraction[0], 2 * radius, 0.05);
   }
-  const Grains huge = grains(1e4);
+  const Grains huge = particles(1e4);
   EXPECT_NE(error_of(huge.frame(&box), request_for(unit_cell, CellWeights::Overlap))
               .find("expected cells and grains that are not much larger than the periodic box"),
     std::string::npos);
@@ -441,18 +442,18 @@ TEST(EulerAverageHard, GrainsLargerThanAPeriodHaveAllImagesOrAreRefused)
 TEST(EulerAverageHard, PointsOnFacesOfAGridOnePeriodLongCountOnce)
 {
   const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff ff");
-  const Grains grains({ { { 0.5, 0.5, 0.5 }, {}, 0.1, 1 }, { { 0, 0.5, 0.5 }, {}, 0.1, 1 } });
+  const Grains particles({ { { 0.5, 0.5, 0.5 }, {}, 0.1, 1 }, { { 0, 0.5, 0.5 }, {}, 0.1, 1 } });
   for (const double first : { -0.5, 0.0, 0.5, -1.0, 3.0 })
   {
     const EulerGrid grid = { { first, 0, 0 }, { first + 1, 1, 1 }, { 2, 1, 1 } };
     const EulerCells cells =
-      average(grains.frame(&box), request_for(grid, CellWeights::Centre)).cells;
+      average(particles.frame(&box), request_for(grid, CellWeights::Centre)).cells;
     EXPECT_NEAR(cells.volume_fraction[0] + cells.volume_fraction[1], 4 * sphere_volume(0.1), 1e-15)
       << first;
   }
 }
 
-/// A grain just below the first face has its image just below the last: by hand.
+/// A particle just below the first face has its image just below the last: by hand.
 TEST(EulerAverageHard, PointsJustBelowAGridOnePeriodLongAreInItsLastCell)
 {
   const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff ff");
@@ -460,9 +461,9 @@ TEST(EulerAverageHard, PointsJustBelowAGridOnePeriodLongAreInItsLastCell)
   const EulerGrid grid = { { 0.25, 0, 0 }, { 1.25, 1, 1 }, { 2, 1, 1 } };
   for (const double x : { below, below - 0.5, std::nextafter(-0.75, -1.0), below + 1 })
   {
-    const Grains grains({ { { x, 0.5, 0.5 }, {}, 0.1, 1 } });
+    const Grains particles({ { { x, 0.5, 0.5 }, {}, 0.1, 1 } });
     const EulerAverages averages =
-      average(grains.frame(&box), request_for(grid, CellWeights::Centre));
+      average(particles.frame(&box), request_for(grid, CellWeights::Centre));
     const bool is_below = x != below + 1; // which is rounded to 1.25
     EXPECT_EQ(averages.cells.volume_fraction[0] > 0, !is_below) << x;
     EXPECT_EQ(averages.cells.volume_fraction[1] > 0, is_below) << x;
@@ -474,11 +475,11 @@ TEST(EulerAverageHard, WhoIsTooFarAwayForPeriodsIsLeftOut)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Box box = periodic_box({ 0, 0, 0 }, { 1, 1, 1 }, "pp ff pp");
-  const Grains grains(
+  const Grains particles(
     { { { 1e300, 0.5, 0.5 }, {}, 0.1, 1 }, { { 0.5, -infinity, 0.5 }, {}, 0.1, 1 },
       { { 0.5, 0.5, infinity }, {}, 0.1, 1 }, { { 0.5, 0.5, 0.5 }, {}, 0.1, 1 } });
   const EulerAverages averages =
-    average(grains.frame(&box), request_for(unit_cell, CellWeights::Centre));
+    average(particles.frame(&box), request_for(unit_cell, CellWeights::Centre));
   EXPECT_EQ(averages.broken, 3);
   EXPECT_EQ(averages.outside, 0);
   EXPECT_EQ(averages.cells.volume_fraction[0], sphere_volume(0.1));

@@ -73,10 +73,10 @@ def main():
         found = {name: vtk_to_numpy(output.GetPointData().GetArray(name)).reshape(112, -1)
                  for name in plain_euler.ARRAYS}
         found["centres"] = vtk_to_numpy(output.GetPoints().GetData())
-        # of a cell with a grain that is beyond a periodic face, LIGGGHTS' own v_avg is too small, by up to 3.5e-5 of it
-        grains = plain_average.grains(frame)
-        shares = plain_average.by_centres(grains, LO, HI, (4, 4, 7), (0, 1))
-        beyond = ((grains["x"] < LO) | (grains["x"] >= HI)).any(axis=1)
+        # of a cell with a particle that is beyond a periodic face, LIGGGHTS' own v_avg is too small, by up to 3.5e-5 of it
+        particles = plain_average.particles(frame)
+        shares = plain_average.by_centres(particles, LO, HI, (4, 4, 7), (0, 1))
+        beyond = ((particles["x"] < LO) | (particles["x"] >= HI)).any(axis=1)
         whole = numpy.ones(112, bool)
         whole[shares[1][beyond[shares[0]]]] = False
         excepted += (~whole).sum()

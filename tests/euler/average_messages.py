@@ -85,7 +85,7 @@ def works(average, time=None, warnings=(), **properties):
     return found
 
 
-def grains(places, **arrays):
+def particles(places, **arrays):
     made, points = vtkPolyData(), vtkPoints()
     points.SetData(numpy_to_vtk(numpy.array(places, float), deep=1))
     made.SetPoints(points)
@@ -123,7 +123,7 @@ for bad in (0.0, -1.0):
     fails(average, "expected a CellSizeRelative above 0, got ", 2000, OutputType=POINTS, CellsBy=RELATIVE,
           CellSizeRelative=bad)
 assert len(works(average, 2000, CellSizeRelative=3)["radius"]) == 112
-# without grains there is no largest one: one cell
+# without particles there is no largest one: one cell
 empty = works(average, 0)
 assert len(empty["radius"]) == 1 and not any(values.any() for values in empty.values())
 assert len(works(average, 2000)["radius"]) == 112
@@ -151,7 +151,7 @@ tilted = filter_of(reader_of(os.path.join(data, "tri_plain.dump")), Weights=CENT
 nothing = ["no array 'v'", "no array 'radius'", "neither an array 'mass'"]
 _, messages = update(tilted, 0)
 assert not any("tilted" in text for text in messages), messages
-boxless = grains([[0.5, 0.5, 0.5]], radius=[0.25], mass=[1.0], v=[[1.0, 2.0, 3.0]])
+boxless = particles([[0.5, 0.5, 0.5]], radius=[0.25], mass=[1.0], v=[[1.0, 2.0, 3.0]])
 bare = filter_of(boxless, CellCounts=(1, 1, 1))
 fails(bare, "expected the box in the field data of the input .*, got none: give Bounds")
 found = works(bare, Bounds=(0, 1, 0, 1, 0, 1))
@@ -169,7 +169,7 @@ works(bare)
 # ---- what is in no cell, or is no number, is counted -------------------------------------------------------------
 
 half = (-0.05, 0.05, -0.05, 0.05, 0, 0.05)
-frame = plain_average.grains(plain_dump.read(os.path.join(data, "grains.dump"))[-1])
+frame = plain_average.particles(plain_dump.read(os.path.join(data, "grains.dump"))[-1])
 for weights, above in ((CENTRE, (frame["x"][:, 2] > 0.05)), (OVERLAP, frame["x"][:, 2] - frame["radius"] > 0.05)):
     assert 100 < above.sum() < 1100
     works(average, 2000, [f"{above.sum()} particles are outside of all cells, and in none"], Weights=weights, Bounds=half)
@@ -201,7 +201,7 @@ places[1], places[2] = [nan, 0.5, 0.5], [0.5, inf, 0.5]
 numbers = {"radius": [0.25, 0.25, 0.25, nan, -0.25, 0.25, 0.25, 0.25],
            "mass": [1.0, 1, 1, 1, 1, -1, 1, 1],
            "v": [[1.0, 2.0, 3.0]] * 6 + [[0, 0, -inf], [3.0, 2.0, 1.0]]}
-broken = filter_of(grains(places, **numbers), CellCounts=(1, 1, 1), Bounds=(0, 1, 0, 1, 0, 1))
+broken = filter_of(particles(places, **numbers), CellCounts=(1, 1, 1), Bounds=(0, 1, 0, 1, 0, 1))
 for weights in (CENTRE, OVERLAP):
     found = works(broken, None, ["6 particles are left out: .* no number, infinite or too large, or a mass or radius is neg"],
                   Weights=weights)
@@ -209,7 +209,7 @@ for weights in (CENTRE, OVERLAP):
     assert found["v_avg"].tolist() == [[2, 2, 2]] and found["radius"] == 0.25, found
 
 # ghosts that another process has are not counted twice; other marks do not matter
-ghosts = filter_of(grains([[0.5, 0.5, 0.5]] * 3, radius=[0.25] * 3, mass=[1.0] * 3, v=[[1.0, 0, 0]] * 3,
+ghosts = filter_of(particles([[0.5, 0.5, 0.5]] * 3, radius=[0.25] * 3, mass=[1.0] * 3, v=[[1.0, 0, 0]] * 3,
                           vtkGhostType=numpy.array([0, 1, 0], numpy.uint8)),
                    CellCounts=(1, 1, 1), Bounds=(0, 1, 0, 1, 0, 1))
 found = works(ghosts)
@@ -217,8 +217,8 @@ assert numpy.allclose(found["volumefraction"], 8 / 3 * numpy.pi / 64, rtol=1e-15
 
 # ---- time ---------------------------------------------------------------------------------------------------------
 
-# the grains of all frames at once, in cells as large as in all of them; the first frame has no grains
-frames = [plain_average.grains(each) for each in plain_dump.read(os.path.join(data, "grains.dump"))[1:]]
+# the particles of all frames at once, in cells as large as in all of them; the first frame has no particles
+frames = [plain_average.particles(each) for each in plain_dump.read(os.path.join(data, "grains.dump"))[1:]]
 lo, hi = numpy.array(BOX[::2]), numpy.array(BOX[1::2])
 FINE, SIZE_OF_FINE = (9, 8, 20), 9 * 8 * 20
 over_time = filter_of(dump, Weights=CENTRE, CellCounts=FINE, TimeAverage=True)
@@ -227,9 +227,9 @@ first, together = frames[0], {name: numpy.concatenate([each[name] for each in fr
 volume = (hi - lo).prod() / SIZE_OF_FINE
 
 
-def plainly(grains, frames):
-    shares = plain_average.by_centres(grains, lo, hi, FINE, (0, 1))
-    return plain_average.values(grains, shares, SIZE_OF_FINE, volume * frames)
+def plainly(particles, frames):
+    shares = plain_average.by_centres(particles, lo, hi, FINE, (0, 1))
+    return plain_average.values(particles, shares, SIZE_OF_FINE, volume * frames)
 
 
 expected = plainly(together, 3)

@@ -58,14 +58,14 @@ def check(proxy, time, **properties):
 
 # ---- the same bits, in parts ------------------------------------------------------------------------------------
 
-grains = GranularDumpReader(FileNames=[dump])
+particles = GranularDumpReader(FileNames=[dump])
 for properties in ({"CellCounts": [7, 5, 9]}, {"CellCounts": [7, 5, 9], "Output": "Points"},
                    {"CellCounts": [1, 1, 1]}, {"CellCounts": [1, 2, 1], "Output": "Points"},
                    {"CellCounts": [4, 4, 7], "Weights": "Centre"},
                    {"CellsBy": "CellSizeRelative", "Output": "Points", "Weights": "Centre"},
                    {"CellsBy": "CellSize", "CellSize": [0.013, 0.02, 0.013], "Bounds": [-0.05, 0.05, -0.05, 0.05, 0, 0.15]},
                    {"CellCounts": [6, 6, 6], "TimeAverage": 1}, {"CellCounts": [6, 6, 6], "TimeAverage": 1, "Output": "Points"}):
-    proxy = GranularEulerAverage(Input=grains, **properties)
+    proxy = GranularEulerAverage(Input=particles, **properties)
     for time in (0, 2000) if "Centre" not in properties.values() else (2000,):
         check(proxy, time, **properties)
     if properties.get("Output") == "Points" and size > 1 and all_ranks.symmetric:
@@ -74,13 +74,13 @@ for properties in ({"CellCounts": [7, 5, 9]}, {"CellCounts": [7, 5, 9], "Output"
         assert abs(own - whole / size) <= 1, (own, whole)
     Delete(proxy)
 
-if size > 1:  # grains on other ranks, in another order; on one, D3 loses the field data
-    proxy = GranularEulerAverage(Input=D3(Input=grains), CellCounts=[7, 5, 9])
+if size > 1:  # particles on other ranks, in another order; on one, D3 loses the field data
+    proxy = GranularEulerAverage(Input=D3(Input=particles), CellCounts=[7, 5, 9])
     check(proxy, 2000, CellCounts=[7, 5, 9])
 
 # ---- filters behind it --------------------------------------------------------------------------------------------
 
-averaged = GranularEulerAverage(Input=grains, CellCounts=[8, 8, 12])
+averaged = GranularEulerAverage(Input=particles, CellCounts=[8, 8, 12])
 smooth = CellDatatoPointData(Input=averaged)
 level = Contour(Input=smooth, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.1])
 cut = Slice(Input=averaged, SliceType="Plane")
@@ -143,7 +143,7 @@ if all_ranks.symmetric:
         algorithm.RemoveObserver(mark)
     algorithm.UpdatePiece(rank, size, 0)
     assert algorithm.GetOutputDataObject(0).GetNumberOfCells() > 0
-    # each for itself, of all grains, though all take part
+    # each for itself, of all particles, though all take part
     algorithm.SetTimeAverage(False)
     algorithm.UpdateInformation()
     algorithm.UpdateTimeStep(2000, 0, 1)

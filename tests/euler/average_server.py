@@ -10,8 +10,8 @@ from ranks_server import connected
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
 with connected() as server:
-    grains = OpenDataFile(os.path.join(data, "grains.dump"))
-    average = GranularEulerAverage(Input=grains, CellCounts=[4, 4, 7], Weights="Centre")
+    particles = OpenDataFile(os.path.join(data, "grains.dump"))
+    average = GranularEulerAverage(Input=particles, CellCounts=[4, 4, 7], Weights="Centre")
     theirs = plain_euler.read(os.path.join(data, "euler_2000.vtk"))
     for output in ("Points", "ImageData"):
         average.Output = output

@@ -14,9 +14,9 @@ data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 dump = os.path.join(data, "grains.dump")
 LO, HI = numpy.array([-0.05, -0.05, 0]), numpy.array([0.05, 0.05, 0.15])
 read = [frame for frame in plain_dump.read(dump) if frame.rows]
-frames = {frame.timestep: plain_average.grains(frame) for frame in read}
+frames = {frame.timestep: plain_average.particles(frame) for frame in read}
 words = {frame.timestep: frame.columns["id"] for frame in read}
-grains = GranularDumpReader(FileNames=[dump])
+particles = GranularDumpReader(FileNames=[dump])
 
 
 def owners(step):
@@ -56,7 +56,7 @@ def same(found, expected, why):
 
 # ---- what LIGGGHTS has: by centres, against numpy, and against its own files -------------------------------
 
-centred = GranularEulerAverage(Input=grains, Output="Points", CellsBy="CellSizeRelative", CellSizeRelative=3,
+centred = GranularEulerAverage(Input=particles, Output="Points", CellsBy="CellSizeRelative", CellSizeRelative=3,
                                Weights="Centre")
 for step, rows in frames.items():
     output, found = values(centred, step)
@@ -74,7 +74,7 @@ for step, rows in frames.items():
     assert abs(centres - theirs["centres"]).max() < 5.001e-7
     for name in ("volumefraction", "radius"):
         assert abs(found[name] - theirs[name]).max() < 5.001e-7, (step, name)
-    # what the six digits of the dump leave open; where grains of two of LIGGGHTS' processes meet its v_avg is too small
+    # what the six digits of the dump leave open; where particles of two of LIGGGHTS' processes meet its v_avg is too small
     open_by = plain_average.uncertainty(rows, shares, 112) + 5.001e-7
     shared = plain_average.shared(shares, owners(step), 112)
     apart = abs(found["v_avg"] - theirs["v_avg"])
@@ -102,7 +102,7 @@ Delete(centred)
 
 # ---- by overlap: slabs of spheres are differences of caps, also through periodic faces -------------------------
 
-overlap = GranularEulerAverage(Input=grains)
+overlap = GranularEulerAverage(Input=particles)
 for name, default in {"Output": "ImageData", "CellsBy": "CellCounts", "Weights": "Overlap", "Periodic": "Boundary",
                       "CellSizeRelative": 3, "VelocityArray": "v", "MassArray": "mass", "RadiusArray": "radius",
                       "StressArray": "", "TimeAverage": 0, "Threads": 0}.items():
@@ -110,7 +110,7 @@ for name, default in {"Output": "ImageData", "CellsBy": "CellCounts", "Weights":
 for name in overlap.ListProperties():
     text = overlap.SMProxy.GetProperty(name).GetDocumentation()
     assert text and len(text.GetDescription().strip()) > 40, name
-high = [-0.05, 0.05, -0.05, 0.05, -0.01, 0.16]  # where all grains are, also below the ground
+high = [-0.05, 0.05, -0.05, 0.05, -0.01, 0.16]  # where all particles are, also below the ground
 for axis in range(3):
     for count in (1, 7, 100):
         counts = [1, 1, 1]
@@ -129,7 +129,7 @@ _, coarse = values(overlap, 2000)
 phi = fine["volumefraction"].reshape(10, 2, 7, 2, 8, 2).mean(axis=(1, 3, 5)).ravel()
 assert abs(phi - coarse["volumefraction"].ravel()).max() < 1e-14
 
-# as ParaView sums it: all grains, but for what is below the ground where the box ends there
+# as ParaView sums it: all particles, but for what is below the ground where the box ends there
 solid = 4 / 3 * numpy.pi * (frames[2000]["radius"]**3).sum()
 integral = IntegrateVariables(Input=overlap)
 for periodic in ("Boundary", "None"):
@@ -178,13 +178,13 @@ for kind in ("Points", "ImageData"):
     same(values(again)[1], expected, kind)
 overlap.Output = "ImageData"
 granular.save(overlap, "all_*.euler", WriteTimeSteps=1)
-assert plain_euler.read("all_0.euler")["volumefraction"].max() == 0  # no grains yet
+assert plain_euler.read("all_0.euler")["volumefraction"].max() == 0  # no particles yet
 for step in (1000, 2000):
     assert plain_euler.read(f"all_{step}.euler")["volumefraction"].max() > 0.1
 
 # ---- columns of stress: their sum by the volume ------------------------------------------------------------------
 
-made = ProgrammableFilter(Input=grains, CopyArrays=1, Script="""
+made = ProgrammableFilter(Input=particles, CopyArrays=1, Script="""
 import numpy
 r = numpy.array(inputs[0].PointData["radius"])
 output.PointData.append(r[:, None] ** 3 * numpy.array([-1.0, -2, -6, 4, 5, 7]), "c_s")

@@ -253,7 +253,7 @@ TEST(ContactAverage, ALatticeHasOneStress)
       {
         x[k] = from[k] + d * static_cast<double>(at[k]);
       }
-      scene.grains.push_back({ x, {}, d / 2, 1 });
+      scene.particles.push_back({ x, {}, d / 2, 1 });
       scene.ids.push_back(i + 1);
       for (std::size_t k = 0; k < 3; ++k)
       {

@@ -10,11 +10,11 @@ import plain_contacts as plain
 
 CORNERS = {"Origin": (-0.015, 0.001, 0), "Point1": (0.015, 0.001, 0), "Point2": (-0.015, 0.001, 0.036)}
 for name in ("bed", "periodic_bed", "moving"):
-    grains = GranularDumpReader(FileNames=[plain.path(name)])
+    particles = GranularDumpReader(FileNames=[plain.path(name)])
     lines, walls = (GranularLocalReader(FileNames=[plain.path(name + what)], ColumnMap=plain.COLUMNS[name + what])
                     for what in ("_contacts", "_walls"))
     step = plain.steps(name)[-1]
-    ports = {"Input": grains, "Lines": lines, "Walls": walls}
+    ports = {"Input": particles, "Lines": lines, "Walls": walls}
     plane = Plane(**CORNERS, XResolution=8, YResolution=9)
     source = vtkPlaneSource()
     for corner, place in CORNERS.items():

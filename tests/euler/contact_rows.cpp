@@ -62,7 +62,7 @@ std::vector<std::vector<std::uint64_t>> bits_of(const EulerAverages& averages)
   return bits;
 }
 
-/// Each grain and each contact on some rank, or all of them on one.
+/// Each particle and each contact on some rank, or all of them on one.
 Scene part_of(const Scene& scene, const Communicator& ranks, unsigned seed)
 {
   std::mt19937_64 random(seed);
@@ -75,11 +75,11 @@ Scene part_of(const Scene& scene, const Communicator& ranks, unsigned seed)
   };
   Scene part;
   part.forces = scene.forces;
-  for (std::size_t i = 0; i < scene.grains.size(); ++i)
+  for (std::size_t i = 0; i < scene.particles.size(); ++i)
   {
     if (is_here())
     {
-      part.grains.push_back(scene.grains[i]);
+      part.particles.push_back(scene.particles[i]);
       part.ids.push_back(scene.ids[i]);
     }
   }
@@ -223,9 +223,9 @@ TEST(ContactRows, NothingGivesEmptyCells)
     EXPECT_EQ(fields.contact_shear, std::vector<double>(3 * cells));
     EXPECT_EQ(fields.coordination, std::vector<double>(cells));
     EXPECT_EQ(fields.fabric, std::vector<double>(6 * cells));
-    Scene grains = random_scene(10, 1, 0, lo, hi, 4);
-    grains.pairs.clear();
-    const EulerFields still = average_contacts_of(grains, &box, request).fields;
+    Scene particles = random_scene(10, 1, 0, lo, hi, 4);
+    particles.pairs.clear();
+    const EulerFields still = average_contacts_of(particles, &box, request).fields;
     EXPECT_EQ(still.contact_normal, std::vector<double>(3 * cells));
     EXPECT_EQ(still.coordination, std::vector<double>(cells));
   }
@@ -323,7 +323,7 @@ TEST(ContactRows, TheStressIsThatOfMotionAndContacts)
   const EulerAverageRequest request =
     request_of_contacts({ lo, hi, { 3, 4, 2 } }, CellWeights::Overlap);
   const Scene scene = random_scene(60, 90, 10, lo, hi, 9);
-  const EulerCells kinetic = average(Grains(scene.grains).frame(), request).cells;
+  const EulerCells kinetic = average(Grains(scene.particles).frame(), request).cells;
   EulerAverages averages = average_contacts_of(scene, nullptr, request);
   EXPECT_EQ(averages.cells, kinetic); // contacts alone do not change it
   add_contact_stress(averages.cells, averages.fields);

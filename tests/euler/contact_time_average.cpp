@@ -37,10 +37,10 @@ Scene together(const std::vector<Scene>& frames)
   Scene all;
   for (const Scene& frame : frames)
   {
-    const auto before = static_cast<std::int64_t>(all.grains.size());
-    for (std::size_t i = 0; i < frame.grains.size(); ++i)
+    const auto before = static_cast<std::int64_t>(all.particles.size());
+    for (std::size_t i = 0; i < frame.particles.size(); ++i)
     {
-      all.grains.push_back(frame.grains[i]);
+      all.particles.push_back(frame.particles[i]);
       all.ids.push_back(before + frame.ids[i]);
     }
     const auto add = [&](const std::vector<Touch>& from, std::vector<Touch>& to)
@@ -145,7 +145,7 @@ TEST(ContactTimeAverage, TheMeanVelocityOfAllFramesIsWhatFluctuationsAreOf)
   std::vector<Scene> frames(3);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    frames[i].grains = { { { 0.5, 0.5, 0.5 }, { static_cast<double>(i), 0, 0 }, 0.1, 2 } };
+    frames[i].particles = { { { 0.5, 0.5, 0.5 }, { static_cast<double>(i), 0, 0 }, 0.1, 2 } };
     frames[i].ids = { 1 };
   }
   const EulerFields fields = over_time(frames, request).fields();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Averages of made grains and contacts at points.
+// Averages of made particles and contacts at points.
 #ifndef granular_tests_euler_made_points_h
 #define granular_tests_euler_made_points_h
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts of made grains, and their averages in cells.
+// Contacts of made particles, and their averages in cells.
 #ifndef granular_tests_euler_made_touches_h
 #define granular_tests_euler_made_touches_h
 
-#include "made_grains.h"
+#include "made_particles.h"
 
 #include "granular/contacts/contact_cells.h"
 #include "granular/contacts/find_ends.h"
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// Of the grains id1 and id2, which are numbered from 1, or of id2 with a wall.
+/// Of the particles id1 and id2, which are numbered from 1, or of id2 with a wall.
 struct Touch
 {
   std::int64_t id1 = 0;
@@ -71,8 +71,8 @@ private:
 /// A part of a scene: what one rank has of it.
 struct Scene
 {
-  std::vector<Grain> grains;
-  std::vector<std::int64_t> ids; ///< of the grains
+  std::vector<Particle> particles;
+  std::vector<std::int64_t> ids; ///< of the particles
   std::vector<Touch> pairs;
   std::vector<Touch> walls;
   bool forces = true;
@@ -83,16 +83,16 @@ class SceneFrame
 {
 public:
   SceneFrame(const Scene& scene, const granular::Box* box)
-    : grains_(scene.grains)
+    : particles_(scene.particles)
     , ids_(scene.ids)
     , pairs_(scene.pairs, false, scene.forces)
     , walls_(scene.walls, true, scene.forces)
     , rows_({ pairs_.view(), walls_.view() })
-    , frame_(scene.grains.empty() ? granular::FrameView() : grains_.frame(box))
+    , frame_(scene.particles.empty() ? granular::FrameView() : particles_.frame(box))
   {
     frame_.has_box = box != nullptr;
     frame_.header.box = box ? *box : granular::Box();
-    if (!scene.grains.empty())
+    if (!scene.particles.empty())
     {
       frame_.arrays.push_back(granular::view_rows("id", granular::ValueType::Int64, ids_.data()));
     }
@@ -104,7 +104,7 @@ public:
   std::span<const granular::ContactRows> rows() const { return rows_; }
 
 private:
-  Grains grains_;
+  Grains particles_;
   std::vector<std::int64_t> ids_;
   Touches pairs_, walls_;
   std::array<granular::ContactRows, 2> rows_;
@@ -163,20 +163,20 @@ inline granular::EulerAverageRequest request_of_contacts(const granular::EulerGr
 }
 
 /// Grains all over a box, and contacts between any two that are near each other, or so it is said.
-inline Scene random_scene(std::size_t grains, std::size_t pairs, std::size_t walls,
+inline Scene random_scene(std::size_t particles, std::size_t pairs, std::size_t walls,
   const granular::Vector3& lo, const granular::Vector3& hi, unsigned seed, double length = 0.5)
 {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   Scene scene;
-  scene.grains = random_grains(grains, lo, hi, 0.2, seed + 1);
-  scene.ids.resize(grains);
+  scene.particles = random_particles(particles, lo, hi, 0.2, seed + 1);
+  scene.ids.resize(particles);
   std::iota(scene.ids.begin(), scene.ids.end(), std::int64_t{ 1 });
   for (std::size_t i = 0; i < pairs + walls; ++i)
   {
     Touch touch;
-    touch.id1 = 1 + static_cast<std::int64_t>(random() % grains);
-    touch.id2 = 1 + static_cast<std::int64_t>(random() % grains);
+    touch.id1 = 1 + static_cast<std::int64_t>(random() % particles);
+    touch.id2 = 1 + static_cast<std::int64_t>(random() % particles);
     for (std::size_t k = 0; k < 3; ++k)
     {
       touch.from[k] = lo[k] + (hi[k] - lo[k]) * unit(random);
@@ -189,20 +189,20 @@ inline Scene random_scene(std::size_t grains, std::size_t pairs, std::size_t wal
   return scene;
 }
 
-/// The scene with small grains at the ends of its lines, which a periodic box does not leave as they are drawn.
+/// The scene with small particles at the ends of its lines, which a periodic box does not leave as they are drawn.
 inline Scene with_ends(Scene scene)
 {
-  const auto grain_at = [&](const granular::Vector3& end)
+  const auto particle_at = [&](const granular::Vector3& end)
   {
-    scene.grains.push_back({ end, {}, 1e-3, 1e-3 });
-    return scene.ids.emplace_back(static_cast<std::int64_t>(scene.grains.size()));
+    scene.particles.push_back({ end, {}, 1e-3, 1e-3 });
+    return scene.ids.emplace_back(static_cast<std::int64_t>(scene.particles.size()));
   };
   for (std::vector<Touch>* const touches : { &scene.pairs, &scene.walls })
   {
     for (Touch& touch : *touches)
     {
-      touch.id1 = grain_at(touch.from);
-      touch.id2 = grain_at(touch.to);
+      touch.id1 = particle_at(touch.from);
+      touch.id2 = particle_at(touch.to);
     }
   }
   return scene;

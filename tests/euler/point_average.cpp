@@ -63,19 +63,19 @@ struct PlainAverage
   std::array<bool, 3> periodic;
 
   template <class Add>
-  void each_grain(const Vector3& point, const Add& add) const
+  void each_particle(const Vector3& point, const Add& add) const
   {
     const Quad volume = Kernel(shape, width).volume();
-    for (const Grain& grain : scene.grains)
+    for (const Particle& particle : scene.particles)
     {
       each_shift(periodic,
         [&](const QuadVector& shift)
         {
-          const QuadVector r = seen_from(grain.x, shift, point);
+          const QuadVector r = seen_from(particle.x, shift, point);
           const Quad square = product_of(r, r);
           if (square < 9 * width * width)
           {
-            add(grain, exact_value(shape, width, square) / volume);
+            add(particle, exact_value(shape, width, square) / volume);
           }
         });
     }
@@ -108,26 +108,27 @@ struct PlainAverage
   PlainSums at(const Vector3& point) const
   {
     PlainSums sums;
-    this->each_grain(point,
-      [&](const Grain& grain, Quad w)
+    this->each_particle(point,
+      [&](const Particle& particle, Quad w)
       {
         sums.share += w;
-        sums.mass += w * grain.mass;
-        sums.radius += w * grain.radius;
-        sums.volume += w * sphere_volume(grain.radius);
+        sums.mass += w * particle.mass;
+        sums.radius += w * particle.radius;
+        sums.volume += w * sphere_volume(particle.radius);
         for (std::size_t k = 0; k < 3; ++k)
         {
-          sums.momentum[k] += w * grain.mass * grain.v[k];
+          sums.momentum[k] += w * particle.mass * particle.v[k];
         }
       });
-    this->each_grain(point,
-      [&](const Grain& grain, Quad w)
+    this->each_particle(point,
+      [&](const Particle& particle, Quad w)
       {
         for (std::size_t n = 0; w > 0 && n < 6; ++n)
         {
           const auto [i, j] = axes[n];
-          sums.fluctuations[n] -= w * grain.mass * (grain.v[i] - sums.momentum[i] / sums.mass) *
-            (grain.v[j] - sums.momentum[j] / sums.mass);
+          sums.fluctuations[n] -= w * particle.mass *
+            (particle.v[i] - sums.momentum[i] / sums.mass) *
+            (particle.v[j] - sums.momentum[j] / sums.mass);
         }
       });
     for (const Touch& touch : scene.pairs)
@@ -262,7 +263,7 @@ double integral_of_density(KernelShape shape, double steps, const Vector3& place
     }
   }
   Scene scene;
-  scene.grains = { { place, { 1, -2, 0.5 }, 0.05, 7 } };
+  scene.particles = { { place, { 1, -2, 0.5 }, 0.05, 7 } };
   scene.ids = { 1 };
   const EulerAverages found =
     average_points_of(scene, points, nullptr, request_at_points(shape, width), 2);
@@ -298,7 +299,7 @@ TEST(PointAverage, AUniformLatticeHasItsVelocityAndNoTemperature)
   Scene scene;
   for (int i = 0; i < 1000; ++i)
   {
-    scene.grains.push_back(
+    scene.particles.push_back(
       { { i % 10 * d, i / 10 % 10 * d, i / 100 * d }, { 0.1, -1e7 / 3, 3e-11 }, d / 2, 0.01 });
     scene.ids.push_back(i + 1);
   }
@@ -331,7 +332,7 @@ TEST(PointAverage, AUniformLatticeHasItsVelocityAndNoTemperature)
 TEST(PointAverage, OtherPointsChangeNothing)
 {
   Scene scene;
-  scene.grains.push_back({ { 0.1 + 0.2, 0, 0 }, { 0, 0, 0 }, 1, 1 });
+  scene.particles.push_back({ { 0.1 + 0.2, 0, 0 }, { 0, 0, 0 }, 1, 1 });
   scene.ids.push_back(1);
   const PointAverageRequest request = request_at_points(KernelShape::Gaussian, 1.93);
   const std::vector<double> alone = { -5.49, 0, 0 };
@@ -346,7 +347,7 @@ TEST(PointAverage, NumbersThatAreTooLarge)
   Scene scene;
   for (int i = 0; i < 3000; ++i)
   {
-    scene.grains.push_back({ { 0, 0, 0 }, { i % 2 == 0 ? 1e80 : -1e80, 0, 0 }, 1, 1e80 });
+    scene.particles.push_back({ { 0, 0, 0 }, { i % 2 == 0 ? 1e80 : -1e80, 0, 0 }, 1, 1e80 });
     scene.ids.push_back(i + 1);
   }
   const EulerAverages found =

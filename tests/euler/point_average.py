@@ -46,10 +46,10 @@ averages.filter.SetPointsConnection(plane.GetOutputPort())
 for kernel in KERNELS:
     found = averages.update(Kernel=kernel)
     assert set(ALL) <= set(found)
-    weights = value(kernel, numpy.linalg.norm(points[:, None] - run.grains.x, axis=2)) / volume(kernel)
-    mass = weights @ run.grains.mass
+    weights = value(kernel, numpy.linalg.norm(points[:, None] - run.particles.x, axis=2)) / volume(kernel)
+    mass = weights @ run.particles.mass
     close(found["density"][:, 0], mass, 1e-4)  # the volume of the kernel is that of many shells
-    close(found["volumefraction"][:, 0], weights @ (4 / 3 * numpy.pi * run.grains.radius**3), 1e-4)
+    close(found["volumefraction"][:, 0], weights @ (4 / 3 * numpy.pi * run.particles.radius**3), 1e-4)
     # the mean of the kernel along each line, by many parts of it
     s = (numpy.arange(400) + 0.5) / 400
     stress = numpy.zeros((len(points), 6))
@@ -71,11 +71,11 @@ assert alone["volumefraction"].tobytes() == averages.update()["volumefraction"].
 
 # at the particles: their own arrays stay
 own = Averages("bed", "PointAverage", KernelWidth=WIDTH)
-own.filter.SetPointsConnection(own.grains.GetOutputPort())
+own.filter.SetPointsConnection(own.particles.GetOutputPort())
 found = own.update()
-assert (found["radius"][:, 0] == run.grains.radius).all() and (found["mass"][:, 0] == run.grains.mass).all()
-weights = value(GAUSSIAN, numpy.linalg.norm(run.grains.x[:, None] - run.grains.x, axis=2))
-close(found["radius_avg"][:, 0], weights @ run.grains.radius / weights.sum(axis=1), 1e-12)
+assert (found["radius"][:, 0] == run.particles.radius).all() and (found["mass"][:, 0] == run.particles.mass).all()
+weights = value(GAUSSIAN, numpy.linalg.norm(run.particles.x[:, None] - run.particles.x, axis=2))
+close(found["radius_avg"][:, 0], weights @ run.particles.radius / weights.sum(axis=1), 1e-12)
 
 # without contacts
 lonely = Averages("bed", "PointAverage", lines=False, walls=False, KernelWidth=WIDTH)

@@ -94,11 +94,11 @@ private:
 Scene part_of(const Scene& scene, Chooser& chooser)
 {
   Scene part;
-  for (std::size_t i = 0; i < scene.grains.size(); ++i)
+  for (std::size_t i = 0; i < scene.particles.size(); ++i)
   {
     if (chooser.is_here())
     {
-      part.grains.push_back(scene.grains[i]);
+      part.particles.push_back(scene.particles[i]);
       part.ids.push_back(scene.ids[i]);
     }
   }
@@ -125,10 +125,10 @@ TEST(PointRows, AnyOrderAndThreadsGiveTheSameBits)
   {
     std::ranges::shuffle(scene.pairs, random);
     std::ranges::shuffle(scene.walls, random);
-    for (std::size_t i = scene.grains.size() - 1; i > 0; --i)
+    for (std::size_t i = scene.particles.size() - 1; i > 0; --i)
     {
       const std::size_t other = random() % (i + 1);
-      std::swap(scene.grains[i], scene.grains[other]);
+      std::swap(scene.particles[i], scene.particles[other]);
       std::swap(scene.ids[i], scene.ids[other]);
     }
     EXPECT_EQ(bits_of(average_points_of(scene, points, &box, some_request(), threads)), first);
@@ -274,14 +274,14 @@ TEST(PointRows, BrokenParticlesAreLeftOutAndCounted)
   const Bits expected = bits_of(average_points_of(scene, points, nullptr, some_request()));
   for (int i = 0; i < 5; ++i)
   {
-    scene.grains.push_back(scene.grains[0]);
+    scene.particles.push_back(scene.particles[0]);
     scene.ids.push_back(1000 + i);
   }
-  scene.grains[60].x[1] = not_a_number;
-  scene.grains[61].v[0] = infinity;
-  scene.grains[62].mass = -1;
-  scene.grains[63].radius = not_a_number;
-  scene.grains[64].x[0] = 1e300;
+  scene.particles[60].x[1] = not_a_number;
+  scene.particles[61].v[0] = infinity;
+  scene.particles[62].mass = -1;
+  scene.particles[63].radius = not_a_number;
+  scene.particles[64].x[0] = 1e300;
   const EulerAverages found = average_points_of(scene, points, nullptr, some_request());
   EXPECT_EQ(found.broken, 5);
   EXPECT_EQ(bits_of(found), expected);

@@ -175,69 +175,70 @@ TEST(SphereCells, SharesAddUpToTheSphere)
 // ---- each cell ---------------------------------------------------------------------------------
 
 /// Grains of all sizes, near faces and corners, across the bounds, with centres of 106 bits.
-struct Grain
+struct Particle
 {
   EulerGrid grid;
   Twofold3 centre;
   double radius;
 };
 
-Grain make_grain(Random& random, double largest)
+Particle make_particle(Random& random, double largest)
 {
-  Grain grain = { {}, {}, 0 };
+  Particle particle = { {}, {}, 0 };
   const double place = random.one_in(4) ? 1e4 : 0;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k)
   {
-    grain.grid.counts[k] = 1 + static_cast<std::int64_t>(9 * random.unit());
-    grain.grid.lo[k] = place + random.unit();
-    grain.grid.hi[k] = grain.grid.lo[k] +
-      static_cast<double>(grain.grid.counts[k]) * (random.one_in(4) ? random.power(-3, 0) : 1);
-    smallest = std::min(smallest, grain.grid.spacing(k));
+    particle.grid.counts[k] = 1 + static_cast<std::int64_t>(9 * random.unit());
+    particle.grid.lo[k] = place + random.unit();
+    particle.grid.hi[k] = particle.grid.lo[k] +
+      static_cast<double>(particle.grid.counts[k]) * (random.one_in(4) ? random.power(-3, 0) : 1);
+    smallest = std::min(smallest, particle.grid.spacing(k));
   }
-  grain.radius = smallest * random.power(-2, std::log10(largest));
+  particle.radius = smallest * random.power(-2, std::log10(largest));
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const auto faces = grain.grid.faces(k);
+    const auto faces = particle.grid.faces(k);
     const double length = faces.back() - faces.front();
     double x = faces.front() + length * random.unit();
     if (random.one_in(3))
     {
       x = faces[static_cast<std::size_t>(random.unit() * static_cast<double>(faces.size()))];
-      x += random.one_in(2) ? grain.radius * (1 - 2 * random.unit()) : 0;
-      x += random.one_in(8) ? grain.radius : 0;
+      x += random.one_in(2) ? particle.radius * (1 - 2 * random.unit()) : 0;
+      x += random.one_in(8) ? particle.radius : 0;
     }
-    grain.centre[k] = { x, random.one_in(3) ? 0 : x * 0x1p-53 * (1 - 2 * random.unit()) };
+    particle.centre[k] = { x, random.one_in(3) ? 0 : x * 0x1p-53 * (1 - 2 * random.unit()) };
   }
-  return grain;
+  return particle;
 }
 
 /// Centres, radii and faces of few bits: on faces, edges and corners, tangent to others, beside the grid.
-Grain make_round_grain(Random& random)
+Particle make_round_particle(Random& random)
 {
-  Grain grain = { {}, {}, std::ldexp(1 + static_cast<double>(random.random() % 12), -3) };
+  Particle particle = { {}, {}, std::ldexp(1 + static_cast<double>(random.random() % 12), -3) };
   for (std::size_t k = 0; k < 3; ++k)
   {
     const double edge = std::ldexp(1, static_cast<int>(random.random() % 12) - 10);
-    grain.grid.counts[k] = 1 + static_cast<std::int64_t>(random.random() % 8);
-    grain.grid.hi[k] = static_cast<double>(grain.grid.counts[k]) * edge;
-    grain.centre[k].hi = random.one_in(3)
-      ? grain.grid.face(k, static_cast<std::int64_t>(random.random() % 9) % grain.grid.counts[k])
+    particle.grid.counts[k] = 1 + static_cast<std::int64_t>(random.random() % 8);
+    particle.grid.hi[k] = static_cast<double>(particle.grid.counts[k]) * edge;
+    particle.centre[k].hi = random.one_in(3)
+      ? particle.grid.face(
+          k, static_cast<std::int64_t>(random.random() % 9) % particle.grid.counts[k])
       : std::ldexp(static_cast<double>(random.random() % 64) - 16, -3);
   }
-  return grain;
+  return particle;
 }
 
-std::string to_text(const Grain& grain)
+std::string to_text(const Particle& particle)
 {
   std::ostringstream out;
   out.precision(17);
   for (std::size_t k = 0; k < 3; ++k)
   {
-    out << grain.grid.lo[k] << ".." << grain.grid.hi[k] << " / " << grain.grid.counts[k] << " at "
-        << grain.centre[k].hi << " + " << grain.centre[k].lo << ", ";
+    out << particle.grid.lo[k] << ".." << particle.grid.hi[k] << " / " << particle.grid.counts[k]
+        << " at " << particle.centre[k].hi << " + " << particle.centre[k].lo << ", ";
   }
-  out << "radius " << grain.radius;
+  out << "radius " << particle.radius;
   return out.str();
 }
 
@@ -264,19 +265,20 @@ TEST(SphereCells, EachShareIsExact)
   Random random(2);
   for (int i = 0; i < 400; ++i)
   {
-    const Grain grain = make_grain(random, 6);
+    const Particle particle = make_particle(random, 6);
     for (const bool short_cuts : { true, false })
     {
-      const SphereCells cells(grain.grid, short_cuts);
-      auto shares = by_cell(find(cells, grain.grid, grain.centre, grain.radius), grain.grid);
-      each_cell(grain.grid,
+      const SphereCells cells(particle.grid, short_cuts);
+      auto shares =
+        by_cell(find(cells, particle.grid, particle.centre, particle.radius), particle.grid);
+      each_cell(particle.grid,
         [&](std::int64_t cell, const Vector3& lo, const Vector3& hi)
         {
-          const ExactVolume exact = exact_sphere_box(grain.centre, grain.radius, lo, hi);
+          const ExactVolume exact = exact_sphere_box(particle.centre, particle.radius, lo, hi);
           const auto share = shares.find(cell);
           const Quad volume = share == shares.end() ? 0 : share->second;
           EXPECT_TRUE(absolute(volume - exact.value) <= exact.tolerance)
-            << to_text(grain) << ", cell " << cell << ": got " << static_cast<double>(volume)
+            << to_text(particle) << ", cell " << cell << ": got " << static_cast<double>(volume)
             << ", expected " << static_cast<double>(exact.value);
         });
     }
@@ -284,24 +286,24 @@ TEST(SphereCells, EachShareIsExact)
 }
 
 /// A sphere that the corner of a cell touches, but for an ulp or so.
-Grain make_touching_grain(Random& random)
+Particle make_touching_particle(Random& random)
 {
-  Grain grain = make_grain(random, 3);
+  Particle particle = make_particle(random, 3);
   const Vector3 direction = { random.unit() - 0.5, random.unit() - 0.5,
     random.one_in(2) ? 0 : random.unit() - 0.5 };
   const double length = std::hypot(direction[0], direction[1], direction[2]);
   const double distance =
-    grain.radius * (1 + (random.one_in(2) ? 0 : 1e-15 * (random.unit() - 0.5)));
+    particle.radius * (1 + (random.one_in(2) ? 0 : 1e-15 * (random.unit() - 0.5)));
   for (std::size_t k = 0; k < 3; ++k)
   {
     const bool outer = random.one_in(2);
     const auto face = static_cast<std::int64_t>(
-      random.unit() * static_cast<double>(outer ? 2 : grain.grid.counts[k] + 1));
-    grain.centre[k] = { grain.grid.face(k, outer ? face * grain.grid.counts[k] : face) +
+      random.unit() * static_cast<double>(outer ? 2 : particle.grid.counts[k] + 1));
+    particle.centre[k] = { particle.grid.face(k, outer ? face * particle.grid.counts[k] : face) +
         direction[k] / length * distance,
       0 };
   }
-  return grain;
+  return particle;
 }
 
 /// Small spheres and large ones, anywhere, on faces, or touching: the short cuts give the bits of the long way.
@@ -310,14 +312,16 @@ TEST(SphereCells, ShortCutsChangeNothing)
   Random random(3);
   for (int i = 0; i < 60000; ++i)
   {
-    const Grain grain = i % 3 == 0 ? make_grain(random, 3)
-      : i % 3 == 1                 ? make_round_grain(random)
-                                   : make_touching_grain(random);
+    const Particle particle = i % 3 == 0 ? make_particle(random, 3)
+      : i % 3 == 1                       ? make_round_particle(random)
+                                         : make_touching_particle(random);
     const auto quick =
-      by_cell(find(SphereCells(grain.grid), grain.grid, grain.centre, grain.radius), grain.grid);
+      by_cell(find(SphereCells(particle.grid), particle.grid, particle.centre, particle.radius),
+        particle.grid);
     const auto slow = by_cell(
-      find(SphereCells(grain.grid, false), grain.grid, grain.centre, grain.radius), grain.grid);
-    ASSERT_EQ(quick, slow) << to_text(grain);
+      find(SphereCells(particle.grid, false), particle.grid, particle.centre, particle.radius),
+      particle.grid);
+    ASSERT_EQ(quick, slow) << to_text(particle);
   }
 }
 
@@ -327,10 +331,10 @@ TEST(SphereCells, RangesHaveTheirShares)
   Random random(4);
   for (int i = 0; i < 2000; ++i)
   {
-    const Grain grain = make_grain(random, 4);
-    const EulerGrid& grid = grain.grid;
+    const Particle particle = make_particle(random, 4);
+    const EulerGrid& grid = particle.grid;
     const SphereCells cells(grid);
-    const auto whole = by_cell(find(cells, grid, grain.centre, grain.radius), grid);
+    const auto whole = by_cell(find(cells, grid, particle.centre, particle.radius), grid);
     CellRange within;
     Cell sizes = {};
     for (std::size_t k = 0; k < 3; ++k)
@@ -343,7 +347,7 @@ TEST(SphereCells, RangesHaveTheirShares)
       sizes[k] = within.last[k] - within.first[k];
     }
     std::vector<CellShare> shares;
-    cells.find(grain.centre, grain.radius, within, shares);
+    cells.find(particle.centre, particle.radius, within, shares);
     std::map<std::int64_t, double> part;
     for (const CellShare& share : shares)
     {
@@ -367,11 +371,11 @@ TEST(SphereCells, RangesHaveTheirShares)
       if (is_within)
       {
         ++expected;
-        ASSERT_EQ(part.count(cell), 1U) << to_text(grain);
-        EXPECT_EQ(part.at(cell), volume) << to_text(grain);
+        ASSERT_EQ(part.count(cell), 1U) << to_text(particle);
+        EXPECT_EQ(part.at(cell), volume) << to_text(particle);
       }
     }
-    EXPECT_EQ(part.size(), expected) << to_text(grain);
+    EXPECT_EQ(part.size(), expected) << to_text(particle);
   }
 }
 
@@ -385,9 +389,9 @@ TEST(SphereCells, RangesAreNeverTooSmall)
   int beside = 0;
   for (int i = 0; i < 20000; ++i)
   {
-    const Grain grain = make_grain(random, 8);
-    const EulerGrid& grid = grain.grid;
-    const CellRange range = SphereCells(grid).range(grain.centre, grain.radius);
+    const Particle particle = make_particle(random, 8);
+    const EulerGrid& grid = particle.grid;
+    const CellRange range = SphereCells(grid).range(particle.centre, particle.radius);
     std::array<std::int64_t, 3> first = {};
     std::array<std::int64_t, 3> last = {};
     Quad nearest2 = 0;
@@ -395,8 +399,8 @@ TEST(SphereCells, RangesAreNeverTooSmall)
     for (std::size_t k = 0; k < 3; ++k)
     {
       const Quad centre =
-        static_cast<Quad>(grain.centre[k].hi) + static_cast<Quad>(grain.centre[k].lo);
-      const Quad radius = grain.radius;
+        static_cast<Quad>(particle.centre[k].hi) + static_cast<Quad>(particle.centre[k].lo);
+      const Quad radius = particle.radius;
       const Quad distance = std::max({ Quad(0), grid.lo[k] - centre, centre - grid.hi[k] });
       nearest2 += distance * distance;
       first[k] = grid.counts[k];
@@ -412,18 +416,18 @@ TEST(SphereCells, RangesAreNeverTooSmall)
       }
       is_any = is_any && first[k] < last[k];
     }
-    const Quad ratio = nearest2 / (static_cast<Quad>(grain.radius) * grain.radius);
+    const Quad ratio = nearest2 / (static_cast<Quad>(particle.radius) * particle.radius);
     if (absolute(ratio - 1) > 0x1p-40) // else rounding decides
     {
-      EXPECT_EQ(range.size() > 0, ratio < 1) << to_text(grain);
+      EXPECT_EQ(range.size() > 0, ratio < 1) << to_text(particle);
       beside += is_any && ratio > 1 ? 1 : 0;
     }
     for (std::size_t k = 0; k < 3 && is_any && ratio < 1 - 0x1p-40; ++k)
     {
-      EXPECT_LE(range.first[k], first[k]) << to_text(grain);
-      EXPECT_GE(range.last[k], last[k]) << to_text(grain);
-      EXPECT_GE(range.first[k], std::max<std::int64_t>(0, first[k] - 1)) << to_text(grain);
-      EXPECT_LE(range.last[k], std::min(grid.counts[k], last[k] + 1)) << to_text(grain);
+      EXPECT_LE(range.first[k], first[k]) << to_text(particle);
+      EXPECT_GE(range.last[k], last[k]) << to_text(particle);
+      EXPECT_GE(range.first[k], std::max<std::int64_t>(0, first[k] - 1)) << to_text(particle);
+      EXPECT_LE(range.last[k], std::min(grid.counts[k], last[k] + 1)) << to_text(particle);
     }
   }
   EXPECT_GT(beside, 20);

@@ -64,9 +64,9 @@ Scene scene_in(const Tilted& tilted, unsigned seed)
   const auto place = [&] {
     return tilted.at({ part(random), part(random), part(random) }, tilted.origin);
   };
-  for (Grain& grain : scene.grains)
+  for (Particle& particle : scene.particles)
   {
-    grain.x = place();
+    particle.x = place();
   }
   for (std::vector<Touch>* const touches : { &scene.pairs, &scene.walls })
   {
@@ -103,12 +103,12 @@ Scene with_images(const Scene& scene, const Tilted& tilted, const EulerGrid& gri
       for (int k = -range(2); k <= range(2); ++k)
       {
         const Vector3 counts = { double(i), double(j), double(k) };
-        for (Grain grain : scene.grains)
+        for (Particle particle : scene.particles)
         {
-          grain.x = tilted.at(counts, grain.x);
-          if (is_near(grain.x))
+          particle.x = tilted.at(counts, particle.x);
+          if (is_near(particle.x))
           {
-            all.grains.push_back(grain);
+            all.particles.push_back(particle);
             all.ids.push_back(static_cast<std::int64_t>(all.ids.size()) + 1);
           }
         }
@@ -193,7 +193,7 @@ TEST(TiltedImages, CellsHaveWhatEachImageAsAParticleGivesThem)
     for (const EulerGrid& grid : { whole, part })
     {
       const Scene plain = with_images(scene, tilted, grid, 3);
-      ASSERT_GT(plain.grains.size(), 10U);
+      ASSERT_GT(plain.particles.size(), 10U);
       for (const CellWeights weights :
         { CellWeights::Centre, CellWeights::Overlap, CellWeights::Kernel })
       {
@@ -233,13 +233,13 @@ TEST(TiltedImages, AGridAsLargeAsTheBoxHasEachParticleOnce)
     const Tilted tilted = { "pp pp pp", { -1, 0, 2 },
       { { { 2, 0, 0 }, { tilts[0], 4, 0 }, { tilts[1], tilts[2], 1 } } } };
     const Box box = tilted.box();
-    std::vector<Grain> grains;
+    std::vector<Particle> particles;
     for (int i = 0; i < 125; ++i)
     {
       const Vector3 parts = { i % 5 * 0.5, i / 5 % 5 * 0.5, i / 25 * 0.5 };
-      grains.push_back({ tilted.at(parts, tilted.origin), {}, 0.1, 1 });
+      particles.push_back({ tilted.at(parts, tilted.origin), {}, 0.1, 1 });
     }
-    const Grains arrays(grains);
+    const Grains arrays(particles);
     for (const std::array<std::int64_t, 3>& counts :
       { std::array<std::int64_t, 3>{ 1, 1, 1 }, { 2, 4, 3 }, { 30, 40, 20 } })
     {
@@ -274,19 +274,19 @@ TEST(TiltedImages, KernelsAreNotBoundedAlongPeriodicAxes)
   EXPECT_EQ(error_of(found(KernelBounds::Inside), found(KernelBounds::None)), 0);
 }
 
-/// A grain 2^50 periods away along z is moved along x and y, too: by whole periods of these here.
-TEST(TiltedImages, GrainsFarAwayComeBackAndFarGridsAreRefused)
+/// A particle 2^50 periods away along z is moved along x and y, too: by whole periods of these here.
+TEST(TiltedImages, ParticlesFarAwayComeBackAndFarGridsAreRefused)
 {
   const Tilted tilted = { "pp pp pp", { 0, 0, 0 }, { { { 2, 0, 0 }, { 1, 3, 0 }, { 2, 3, 1 } } } };
   const Box box = tilted.box();
   const EulerGrid grid = { { 0, 0, 0 }, { 2, 3, 1 }, { 2, 1, 1 } };
-  const Grains grains({ { { 0.5, 1, 0x1p50 }, {}, 0.1, 1 } }); // 2^50 c are 2^50 b and 2^49 a
+  const Grains particles({ { { 0.5, 1, 0x1p50 }, {}, 0.1, 1 } }); // 2^50 c are 2^50 b and 2^49 a
   const EulerCells cells =
-    average(grains.frame(&box), request_for(grid, CellWeights::Centre)).cells;
+    average(particles.frame(&box), request_for(grid, CellWeights::Centre)).cells;
   EXPECT_EQ(cells.volume_fraction[0], sphere_volume(0.1) / 3);
   EXPECT_EQ(cells.volume_fraction[1], 0);
   const EulerGrid far = { { 1e30, 0, 0 }, { 2e30, 1, 1 }, { 1, 1, 1 } };
-  EXPECT_THROW(average(grains.frame(&box), request_for(far, CellWeights::Centre)), LimitError);
+  EXPECT_THROW(average(particles.frame(&box), request_for(far, CellWeights::Centre)), LimitError);
 }
 
 TEST(TiltedImages, GeneralBoxesHaveNone)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages over time against those of the particles of all frames at once, one by one with exact sums.
-#include "made_grains.h"
+#include "made_particles.h"
 #include "sphere_box_volume.h"
 
 #include "granular/common/error.h"
@@ -17,7 +17,7 @@ using namespace granular;
 
 namespace
 {
-using Frames = std::vector<std::vector<Grain>>;
+using Frames = std::vector<std::vector<Particle>>;
 
 EulerAverageRequest request_over_time(const EulerGrid& grid, CellWeights weights)
 {
@@ -30,9 +30,10 @@ EulerAverageRequest request_over_time(const EulerGrid& grid, CellWeights weights
 EulerCells over_time(const Frames& frames, const EulerAverageRequest& request)
 {
   TimeAverage time;
-  for (const std::vector<Grain>& grains : frames)
+  for (const std::vector<Particle>& particles : frames)
   {
-    time.add(grains.empty() ? average({}, request) : average(Grains(grains).frame(), request));
+    time.add(
+      particles.empty() ? average({}, request) : average(Grains(particles).frame(), request));
   }
   EXPECT_EQ(time.frames(), static_cast<std::int64_t>(frames.size()));
   return time.cells();
@@ -42,10 +43,10 @@ EulerCells over_time(const Frames& frames, const EulerAverageRequest& request)
 template <class ShareOf>
 EulerCells at_once(const Frames& frames, const EulerGrid& grid, const ShareOf& share_of)
 {
-  std::vector<Grain> all;
-  for (const std::vector<Grain>& grains : frames)
+  std::vector<Particle> all;
+  for (const std::vector<Particle>& particles : frames)
   {
-    all.insert(all.end(), grains.begin(), grains.end());
+    all.insert(all.end(), particles.begin(), particles.end());
   }
   EulerCells cells = average_one_by_one(all, grid, share_of);
   for (std::vector<double>* values :
@@ -116,8 +117,8 @@ TEST(TimeAverage, RadiusIsThatOfParticlesInAnyFrame)
 {
   const EulerAverageRequest request =
     request_over_time({ { 0, 0, 0 }, { 1, 1, 1 }, { 1, 1, 1 } }, CellWeights::Overlap);
-  const Grain small = { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, 0.1, 1 };
-  const Grain large = { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, 0.4, 1 };
+  const Particle small = { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, 0.1, 1 };
+  const Particle large = { { 0.5, 0.5, 0.5 }, { 1, 0, 0 }, 0.4, 1 };
   EXPECT_EQ(over_time({ {}, { small }, {} }, request).radius[0], 0.1);
   EXPECT_DOUBLE_EQ(
     over_time({ { small, small, small }, {}, { large } }, request).radius[0], (0.3 + 0.4) / 4);
@@ -134,31 +135,34 @@ TEST(TimeAverage, IsThatOfTheParticlesOfAllFramesAtOnce)
   const EulerGrid grid = { { -1, 0, 2 }, { 1, 3, 3 }, { 4, 5, 3 } };
   for (const double speed : { 0.0, 1e6 }) // of all: what fluctuates is known as well as it can be
   {
-    Frames frames = { random_grains(40, grid.lo, grid.hi, 0.3, 1), {},
-      random_grains(3, grid.lo, grid.hi, 0.3, 2), random_grains(80, grid.lo, grid.hi, 0.2, 3) };
-    for (std::vector<Grain>& grains : frames)
+    Frames frames = { random_particles(40, grid.lo, grid.hi, 0.3, 1), {},
+      random_particles(3, grid.lo, grid.hi, 0.3, 2),
+      random_particles(80, grid.lo, grid.hi, 0.2, 3) };
+    for (std::vector<Particle>& particles : frames)
     {
-      for (Grain& grain : grains)
+      for (Particle& particle : particles)
       {
-        grain.v[1] += speed;
+        particle.v[1] += speed;
       }
     }
     const double precision = speed > 0 ? 1e-9 : 1e-13;
     HardCase& row = speed > 0 ? fast : hard;
     row.add(expect_near(over_time(frames, request_over_time(grid, CellWeights::Centre)),
               at_once(frames, grid,
-                [&](const Grain& grain, const Vector3& lo, const Vector3& hi) {
-                  return is_inside(grain, grid, lo, hi) ? Share(1, sphere_volume(grain.radius))
-                                                        : Share(0, 0);
+                [&](const Particle& particle, const Vector3& lo, const Vector3& hi)
+                {
+                  return is_inside(particle, grid, lo, hi)
+                    ? Share(1, sphere_volume(particle.radius))
+                    : Share(0, 0);
                 }),
               precision),
       grid.size());
     row.add(expect_near(over_time(frames, request_over_time(grid, CellWeights::Overlap)),
               at_once(frames, grid,
-                [](const Grain& grain, const Vector3& lo, const Vector3& hi)
+                [](const Particle& particle, const Vector3& lo, const Vector3& hi)
                 {
-                  const double volume = sphere_box_volume(grain.x, grain.radius, lo, hi);
-                  return Share(volume / sphere_volume(grain.radius), volume);
+                  const double volume = sphere_box_volume(particle.x, particle.radius, lo, hi);
+                  return Share(volume / sphere_volume(particle.radius), volume);
                 }),
               std::max(precision, 1e-11)),
       grid.size());
@@ -168,11 +172,11 @@ TEST(TimeAverage, IsThatOfTheParticlesOfAllFramesAtOnce)
 TEST(TimeAverage, OfOneFrameIsThatFrame)
 {
   const EulerGrid grid = { { -1, 0, 2 }, { 1, 3, 3 }, { 4, 5, 3 } };
-  const std::vector<Grain> grains = random_grains(200, grid.lo, grid.hi, 0.3, 1);
+  const std::vector<Particle> particles = random_particles(200, grid.lo, grid.hi, 0.3, 1);
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })
   {
     const EulerAverageRequest request = request_over_time(grid, weights);
-    EXPECT_EQ(over_time({ grains }, request), average(Grains(grains).frame(), request).cells);
+    EXPECT_EQ(over_time({ particles }, request), average(Grains(particles).frame(), request).cells);
   }
 }
 
@@ -182,11 +186,11 @@ TEST(TimeAverage, ParticlesOfOneVelocityHaveNoPressure)
   Frames frames;
   for (unsigned seed = 0; seed < 9; ++seed)
   {
-    frames.push_back(random_grains(100, grid.lo, grid.hi, 0.3, seed));
-    for (Grain& grain : frames.back())
+    frames.push_back(random_particles(100, grid.lo, grid.hi, 0.3, seed));
+    for (Particle& particle : frames.back())
     {
-      grain.v = { 0.1, -1e7 / 3, 3e-11 / 7 };
-      grain.stress = {};
+      particle.v = { 0.1, -1e7 / 3, 3e-11 / 7 };
+      particle.stress = {};
     }
   }
   for (const CellWeights weights : { CellWeights::Centre, CellWeights::Overlap })

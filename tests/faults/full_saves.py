@@ -11,10 +11,10 @@ from paraview.simple import *
 
 import granular
 
-GRAINS = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
+PARTICLES = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 LIMIT = 100_000  # bytes of a file
 small, large = Sphere(), Sphere(ThetaResolution=200, PhiResolution=200)
-grains = granular.reader(GRAINS)
+particles = granular.reader(PARTICLES)
 
 
 @contextlib.contextmanager
@@ -64,10 +64,10 @@ for ending in ("vtp", "csv", "ply", "stl", "vtk", "pvd", "pvtp"):
         shutil.rmtree(name) if os.path.isdir(name) else os.remove(name)
 
 # all files of a series, or none
-granular.save(grains, "all.vtp", WriteTimeSteps=1)
+granular.save(particles, "all.vtp", WriteTimeSteps=1)
 assert sorted(os.listdir(".")) == ["all_0.vtp", "all_1.vtp", "all_2.vtp"], os.listdir(".")
 with limited():
-    refused(grains, "all.vtp", WriteTimeSteps=1)
-    refused(grains, "new.vtp", WriteTimeSteps=1)
+    refused(particles, "all.vtp", WriteTimeSteps=1)
+    refused(particles, "new.vtp", WriteTimeSteps=1)
 
 print("no file was lost")

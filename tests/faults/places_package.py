@@ -13,7 +13,7 @@ import granular
 from granular.command import main
 
 warnings.simplefilter("ignore")
-GRAINS = os.path.join(command.GOOD, "grains_1000.dump")
+PARTICLES = os.path.join(command.GOOD, "grains_1000.dump")
 NAMES = {"a b": "a b", "quote'\"": "quote'\"", "new\nline": r"new\nline", "tab\t\x1b[31m": r"tab\t\x1b[31m", "back\\slash": "back\\slash",
          "per%cent%d": "per%cent%d", "st*r": "st*r", "b[r]a?k": "b[r]a?k", "-dash": "-dash", "\u00e4\u20ac\U0001f600": "\u00e4\u20ac\U0001f600",
          os.fsdecode(b"\xff\xfe"): r"\xff\xfe", "n" * 240: "n" * 240}
@@ -41,12 +41,12 @@ def convert(*arguments, status=0):
 
 
 # ---- names --------------------------------------------------------------------------------------
-plain = granular.open(GRAINS)[0].read()
+plain = granular.open(PARTICLES)[0].read()
 for name, shown in NAMES.items():
     file = name + ".dump"
     os.mkdir(name)
     for path in (file, os.path.join(name, file)):
-        shutil.copy(GRAINS, path)
+        shutil.copy(PARTICLES, path)
         for spelled in (path, os.fsencode(path), os.path.abspath(path)):
             assert (granular.open(spelled)[0]["id"] == plain["id"]).all()
     assert granular.files(os.path.join(name, "*.dump")) == [os.path.join(HERE, name, file)]
@@ -55,11 +55,11 @@ for name, shown in NAMES.items():
     if "*" not in name and "%" not in name:
         os.remove(file)
         granular.write(file, plain)
-        assert command.content(file) == command.content(GRAINS), name
+        assert command.content(file) == command.content(PARTICLES), name
     with open(name + ".log", "w") as log:
         log.write("nothing\n")
     expect_error(granular.Error, lambda: granular.read_log(name + ".log"), shown + ".log")  # noqa: B023
-    shutil.copy(GRAINS, name + "_7.stl")
+    shutil.copy(PARTICLES, name + "_7.stl")
     if "\udcff" in name:
         expect_error(ValueError, lambda: granular.write_series([name + "_7.stl"], 1, path="no.series"), "UTF-8", shown)  # noqa: B023
     else:
@@ -67,7 +67,7 @@ for name, shown in NAMES.items():
 for call in (granular.open, granular.files, lambda path: granular.write(path, plain)):
     expect_error(ValueError, lambda: call("nul\0.dump"), "null")  # noqa: B023
 for name in ("new\nline", os.fsdecode(b"\xff\xfe"), "-dash", "st*r"):
-    shutil.copy(GRAINS, name + ".dump")
+    shutil.copy(PARTICLES, name + ".dump")
     convert("--", name + ".dump", name + ".csv")
     assert os.path.exists(name.replace("*", "1000") + ".csv"), os.listdir(".")
 for name in ("new\nline", os.fsdecode(b"\xff\xfe")):
@@ -89,6 +89,6 @@ for place, why in {"pipe": DEVICE, "to_pipe": DEVICE, "socket": DEVICE, "/dev/nu
     expect_error(OSError, lambda: granular.open(place), why)  # noqa: B023
     expect_error(OSError, lambda: granular.files(place), why)  # noqa: B023
 os.symlink("pipe", "out.csv")  # what is written in Python; for dumps, tests/bytes
-assert "out.csv" in convert(GRAINS, "out.csv", status=1)
+assert "out.csv" in convert(PARTICLES, "out.csv", status=1)
 assert os.path.islink("out.csv")
 print("all places were tried")

@@ -57,7 +57,7 @@ std::string less_a_row(const std::string& frame)
   return frame.substr(0, frame.rfind('\n', frame.size() - 2) + 1);
 }
 
-/// Files of one process each, at every step: two grains a process, whose ids begin with 10 x process.
+/// Files of one process each, at every step: two particles a process, whose ids begin with 10 x process.
 Files write_pieces(const Folder& folder, const std::string& before, const Steps& steps,
   int processes, const std::string& after = ".dump")
 {
@@ -68,7 +68,7 @@ Files write_pieces(const Folder& folder, const std::string& before, const Steps&
     {
       const std::string name =
         before + std::to_string(step) + "." + std::to_string(process) + after;
-      files.push_back(folder.write(name, grains(step, ids_from(10 * process, 2))));
+      files.push_back(folder.write(name, particles(step, ids_from(10 * process, 2))));
     }
   }
   return files;
@@ -103,7 +103,8 @@ TEST(FileSeries, TheNumberMayBeAnywhereInTheName)
       {
         const std::string digits = std::to_string(step);
         const std::string zeros(padded ? 8 - digits.size() : 0, '0');
-        files.push_back(folder.write(replaced(name, "*", zeros + digits), grains(step, { step })));
+        files.push_back(
+          folder.write(replaced(name, "*", zeros + digits), particles(step, { step })));
       }
       shuffle(files);
       Series run;
@@ -129,7 +130,7 @@ TEST(FileSeries, NumbersThatGoTogetherAreOneFileAStep)
   {
     const std::string name = "t" + std::to_string(i / 10) + "." + std::to_string(i % 10) + "_step" +
       std::to_string(100 * i) + ".dump";
-    files.push_back(folder.write(name, grains(100 * i, { 1 })));
+    files.push_back(folder.write(name, particles(100 * i, { 1 })));
     steps.push_back(100 * i);
   }
   shuffle(files);
@@ -147,7 +148,7 @@ TEST(FileSeries, AFewFramesAFile)
     std::string text;
     for (const std::int64_t step : steps)
     {
-      text += grains(step, { id });
+      text += particles(step, { id });
     }
     return text;
   };
@@ -173,13 +174,13 @@ TEST(FileSeries, PlainAndCompressedFilesOfOneRun)
 {
   const Folder folder;
   // old files were compressed to save room, two of them without a fitting name
-  const Files files = { folder.write("dump.0.gz", packing::gzip(grains(0, { 1 }))),
-    folder.write("dump.100.zst", packing::zstd(grains(100, { 2 }))),
-    folder.write("dump.200", grains(200, { 3 })),
-    folder.write("dump.300", packing::gzip(grains(300, { 4 }))),
+  const Files files = { folder.write("dump.0.gz", packing::gzip(particles(0, { 1 }))),
+    folder.write("dump.100.zst", packing::zstd(particles(100, { 2 }))),
+    folder.write("dump.200", particles(200, { 3 })),
+    folder.write("dump.300", packing::gzip(particles(300, { 4 }))),
     folder.write(
-      "dump.400.zst", packing::gzip(grains(400, { 5 })) + packing::gzip(grains(500, { 6 }))),
-    folder.write("dump.600.gz", grains(600, { 7 })) };
+      "dump.400.zst", packing::gzip(particles(400, { 5 })) + packing::gzip(particles(500, { 6 }))),
+    folder.write("dump.600.gz", particles(600, { 7 })) };
   Series run;
   run.update(files);
   EXPECT_EQ(run.said, "");
@@ -193,10 +194,10 @@ TEST(FileSeries, PlainAndCompressedFilesOfOneRun)
 TEST(FileSeries, TheSameFilePlainAndCompressedCountsOnce)
 {
   const Folder folder;
-  const std::string plain = folder.write("dump.0.lammpstrj", grains(0, { 1, 2 }));
+  const std::string plain = folder.write("dump.0.lammpstrj", particles(0, { 1, 2 }));
   const std::string packed =
-    folder.write("dump.0.lammpstrj.gz", packing::gzip(grains(0, { 1, 2 })));
-  const std::string other = folder.write("dump.100.lammpstrj", grains(100, { 1, 2 }));
+    folder.write("dump.0.lammpstrj.gz", packing::gzip(particles(0, { 1, 2 })));
+  const std::string other = folder.write("dump.100.lammpstrj", particles(100, { 1, 2 }));
   Series run;
   run.update({ plain, packed, other });
   EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
@@ -204,7 +205,7 @@ TEST(FileSeries, TheSameFilePlainAndCompressedCountsOnce)
   EXPECT_EQ(run.said, hidden(plain, packed));
   // and of pieces
   Files files = write_pieces(folder, "p.", { 0, 100 }, 2);
-  files.push_back(folder.write("p.0.0.dump.gz", packing::gzip(grains(0, { 0, 1 }))));
+  files.push_back(folder.write("p.0.0.dump.gz", packing::gzip(particles(0, { 0, 1 }))));
   for (unsigned seed = 0; seed < 5; ++seed)
   {
     shuffle(files, seed);
@@ -218,9 +219,10 @@ TEST(FileSeries, TheSameFilePlainAndCompressedCountsOnce)
 TEST(FileSeries, BoundingBoxesAreNoFrames)
 {
   const Folder folder;
-  const std::string box = grains(100, { 1, 2, 3, 4, 5, 6, 7, 8 });
-  const Files files = { folder.write("dump100.stl", grains(100, { 1 })),
-    folder.write("dump100_boundingBox.vtk", box), folder.write("dump200.stl", grains(200, { 1 })),
+  const std::string box = particles(100, { 1, 2, 3, 4, 5, 6, 7, 8 });
+  const Files files = { folder.write("dump100.stl", particles(100, { 1 })),
+    folder.write("dump100_boundingBox.vtk", box),
+    folder.write("dump200.stl", particles(200, { 1 })),
     folder.write("dump200_boundingBox.vtk", "# vtk DataFile Version 2.0\n") };
   Series run;
   run.update(files);
@@ -229,7 +231,7 @@ TEST(FileSeries, BoundingBoxesAreNoFrames)
   EXPECT_EQ(run.index.files().size(), 2u);
   // a folder of that name is no matter
   fs::create_directory(folder.path("boundingBox"));
-  run.update({ folder.write("boundingBox/dump100.stl", grains(100, { 1 })), files[2] });
+  run.update({ folder.write("boundingBox/dump100.stl", particles(100, { 1 })), files[2] });
   EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
   // where there is nothing else they are looked at as any file is
   run.update({ files[1] });
@@ -241,10 +243,10 @@ TEST(FileSeries, BoundingBoxesAreNoFrames)
 TEST(FileSeries, OneOfThreeFilesIsNoDump)
 {
   const Folder folder;
-  const std::string first = folder.write("dump.0", grains(0, { 1 }));
-  const std::string last = folder.write("dump.200", grains(200, { 3 }));
+  const std::string first = folder.write("dump.0", particles(0, { 1 }));
+  const std::string last = folder.write("dump.200", particles(200, { 3 }));
   const std::string path = folder.path("dump.100");
-  const std::string gz = packing::gzip(packing::rows(100000) + grains(100, { 2 }));
+  const std::string gz = packing::gzip(packing::rows(100000) + particles(100, { 2 }));
   struct Case
   {
     std::string bytes;
@@ -252,7 +254,7 @@ TEST(FileSeries, OneOfThreeFilesIsNoDump)
   };
   const Case cases[] = {
     { "", "" }, // its writer has opened it
-    { unfinished(grains(100, { 2 })), "" },
+    { unfinished(particles(100, { 2 })), "" },
     { "no dump\n",
       ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'no dump'; the frame is left out\n" },
     { gz.substr(0, gz.size() / 2) + "damage" + gz.substr(gz.size() / 2), "left out\n" },
@@ -268,7 +270,7 @@ TEST(FileSeries, OneOfThreeFilesIsNoDump)
     EXPECT_LE(std::count(run.said.begin(), run.said.end(), '\n'), 1) << run.said;
     EXPECT_EQ(run.ids(1), Ids{ 3 });
     // and when it is good
-    folder.write("dump.100", grains(100, { 2 }) + "\n");
+    folder.write("dump.100", particles(100, { 2 }) + "\n");
     run.update({ first, path, last });
     EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
     EXPECT_EQ(run.said, "");
@@ -287,11 +289,11 @@ TEST(FileSeries, ARestartRepeatsTheStepItStartsFrom)
     Files files;
     for (const int step : { 0, 500, 1000 })
     {
-      files.push_back(folder.write(first + std::to_string(step), grains(step, { 1 })));
+      files.push_back(folder.write(first + std::to_string(step), particles(step, { 1 })));
     }
     for (const int step : { 1000, 1500, 2000 })
     {
-      files.push_back(folder.write(second + std::to_string(step), grains(step, { 2 })));
+      files.push_back(folder.write(second + std::to_string(step), particles(step, { 2 })));
     }
     Series run;
     run.update(files);
@@ -313,7 +315,7 @@ TEST(FileSeries, ARestartOfManyFramesAFile)
     std::string text;
     for (std::int64_t step = first; step <= last; step += 10)
     {
-      text += grains(step, { id });
+      text += particles(step, { id });
     }
     return text;
   };
@@ -348,12 +350,12 @@ TEST(FileSeries, ARestartWithMostOfTheStepsAgain)
     for (int step = 0; step <= 1000; step += 100)
     {
       files.push_back(folder.write(
-        "run" + std::to_string(number) + "_" + std::to_string(step), grains(step, { 1 })));
+        "run" + std::to_string(number) + "_" + std::to_string(step), particles(step, { 1 })));
     }
     for (int step = 200; step <= 1000; step += 100)
     {
       files.push_back(folder.write(
-        "run" + std::to_string(number + 1) + "_" + std::to_string(step), grains(step, { 2 })));
+        "run" + std::to_string(number + 1) + "_" + std::to_string(step), particles(step, { 2 })));
     }
     Series run;
     run.update(files);
@@ -373,8 +375,8 @@ TEST(FileSeries, ARunThatBeganAgain)
   std::string after;
   for (int step = 0; step <= 100; step += 10)
   {
-    before += step <= 50 ? grains(step, { 1 }) : "";
-    after += grains(step, { 2 });
+    before += step <= 50 ? particles(step, { 1 }) : "";
+    after += particles(step, { 2 });
   }
   Series run;
   run.update({ folder.write("run.1.dump", before), folder.write("run.2.dump", after) });
@@ -389,8 +391,8 @@ TEST(FileSeries, ARunThatBeganAgain)
 TEST(FileSeries, NumbersThatDifferInTheirZerosAloneAreTheSame)
 {
   const Folder folder;
-  const std::string plain = folder.write("a_1.dump", grains(10, { 1 }));
-  const std::string padded = folder.write("a_01.dump", grains(10, { 2 }));
+  const std::string plain = folder.write("a_1.dump", particles(10, { 1 }));
+  const std::string padded = folder.write("a_01.dump", particles(10, { 2 }));
   Series run;
   run.update({ padded, plain });
   EXPECT_EQ(run.steps(), Steps{ 10 });
@@ -405,8 +407,8 @@ TEST(FileSeries, RunsInFoldersOfTheirOwnAreNoPieces)
   const Folder folder;
   fs::create_directory(folder.path("run1"));
   fs::create_directory(folder.path("run2"));
-  const std::string first = folder.write("run1/dump.0", grains(0, { 1 }));
-  const std::string second = folder.write("run2/dump.0", grains(0, { 2 }));
+  const std::string first = folder.write("run1/dump.0", particles(0, { 1 }));
+  const std::string second = folder.write("run2/dump.0", particles(0, { 2 }));
   Series run;
   run.update({ first, second });
   EXPECT_EQ(run.steps(), Steps{ 0 });
@@ -422,11 +424,11 @@ TEST(FileSeries, RunsInFoldersOfTheirOwnAreNoPieces)
 TEST(FileSeries, OtherBoxesOrColumnsAreOtherRuns)
 {
   const Folder folder;
-  const std::string first = folder.write("a.0.dump", grains(10, { 1 }));
+  const std::string first = folder.write("a.0.dump", particles(10, { 1 }));
   Series run;
-  for (const std::string& other : { grains(10, { 2 }, "0 2"),
+  for (const std::string& other : { particles(10, { 2 }, "0 2"),
          header(10, 1, "id z y x") + "2 0 0 0\n", header(10, 1, "id x y z fx") + "2 0 0 0 0\n",
-         replaced(grains(10, { 2 }), "pp pp pp", "pp pp ff"), grains(20, { 2 }) })
+         replaced(particles(10, { 2 }), "pp pp pp", "pp pp ff"), particles(20, { 2 }) })
   {
     run.update({ first, folder.write("a.1.dump", other) });
     EXPECT_EQ(run.index.pieces(run.index.size() - 1).size(), 1u) << other;
@@ -434,7 +436,7 @@ TEST(FileSeries, OtherBoxesOrColumnsAreOtherRuns)
   }
   // and when they are merged nevertheless the reader says why it does not
   run.options.repeated_steps = RepeatedSteps::Merge;
-  run.update({ first, folder.write("a.1.dump", grains(10, { 2 }, "0 2")) });
+  run.update({ first, folder.write("a.1.dump", particles(10, { 2 }, "0 2")) });
   EXPECT_EQ(error_of([&] { run.read(0); }),
     folder.path("a.1.dump") + ":1: expected a piece of the same frame, got one with another box");
   run.update({ first, folder.write("a.1.dump", header(10, 1, "id z y x") + "2 0 0 0\n") });
@@ -462,7 +464,7 @@ TEST(Pieces, OfOneStepAFileAreMergedInTheOrderOfTheProcesses)
         {
           const std::string digits = (padded && process < 10 ? "0" : "") + std::to_string(process);
           const std::string path = replaced(replaced(name, "%", digits), "*", std::to_string(step));
-          files.push_back(folder.write(path, grains(step, ids_from(10 * process, 2))));
+          files.push_back(folder.write(path, particles(step, ids_from(10 * process, 2))));
         }
       }
       shuffle(files);
@@ -489,7 +491,7 @@ TEST(Pieces, OfManyFramesAFileAreMerged)
     std::string text;
     for (const int step : { 0, 10, 20 })
     {
-      text += grains(step, ids_from(10 * process, 2));
+      text += particles(step, ids_from(10 * process, 2));
     }
     files.push_back(folder.write("pieces." + std::to_string(process) + ".dump", text));
   }
@@ -519,10 +521,10 @@ TEST(Pieces, MayBeCompressedInPart)
   Series run;
   for (const bool many_frames : { false, true })
   {
-    const std::string more = many_frames ? grains(10, { 9 }) : "";
-    run.update({ folder.write("a.2.dump.zst", packing::zstd(grains(0, { 3 }) + more)),
-      folder.write("a.0.dump.gz", packing::gzip(grains(0, { 1 }) + more)),
-      folder.write("a.1.dump", grains(0, { 2 }) + more) });
+    const std::string more = many_frames ? particles(10, { 9 }) : "";
+    run.update({ folder.write("a.2.dump.zst", packing::zstd(particles(0, { 3 }) + more)),
+      folder.write("a.0.dump.gz", packing::gzip(particles(0, { 1 }) + more)),
+      folder.write("a.1.dump", particles(0, { 2 }) + more) });
     EXPECT_EQ(run.ids(0), (Ids{ 1, 2, 3 }));
     EXPECT_EQ(run.said, "");
     EXPECT_EQ(run.index.size(), many_frames ? 2u : 1u);
@@ -533,12 +535,12 @@ TEST(Pieces, MayBeEmpty)
 {
   const Folder folder;
   Series run;
-  // no process has a grain yet; the first one alone; the last one alone
-  run.update({ folder.write("d.0.0", grains(0, {})), folder.write("d.0.1", grains(0, {})),
-    folder.write("d.0.2", grains(0, {})), folder.write("d.5.0", grains(5, { 4, 2 })),
-    folder.write("d.5.1", grains(5, {})), folder.write("d.5.2", grains(5, {})),
-    folder.write("d.9.0", grains(9, {})), folder.write("d.9.1", grains(9, {})),
-    folder.write("d.9.2", grains(9, { 7 })) });
+  // no process has a particle yet; the first one alone; the last one alone
+  run.update({ folder.write("d.0.0", particles(0, {})), folder.write("d.0.1", particles(0, {})),
+    folder.write("d.0.2", particles(0, {})), folder.write("d.5.0", particles(5, { 4, 2 })),
+    folder.write("d.5.1", particles(5, {})), folder.write("d.5.2", particles(5, {})),
+    folder.write("d.9.0", particles(9, {})), folder.write("d.9.1", particles(9, {})),
+    folder.write("d.9.2", particles(9, { 7 })) });
   EXPECT_EQ(run.said, "");
   EXPECT_EQ(run.steps(), (Steps{ 0, 5, 9 }));
   EXPECT_EQ(run.read(0).rows(), 0);
@@ -554,7 +556,7 @@ TEST(Pieces, FourThousandOfAFrame)
   Ids ids;
   for (int process = 0; process < 4096; ++process)
   {
-    files.push_back(folder.write("dump.7." + std::to_string(process), grains(7, { process })));
+    files.push_back(folder.write("dump.7." + std::to_string(process), particles(7, { process })));
     ids.push_back(process);
   }
   shuffle(files);
@@ -593,7 +595,7 @@ TEST(Pieces, OfARestartIntoTheSameFiles)
     std::string text;
     for (const int step : { 0, 10, 20, 10, 20, 30 })
     {
-      text += grains(step, ids_from(10 * process, 2));
+      text += particles(step, ids_from(10 * process, 2));
     }
     files.push_back(folder.write("d." + std::to_string(process), text));
   }
@@ -612,7 +614,7 @@ TEST(Pieces, OfARunThatWasKilledWhileSomeHadWritten)
   Files files;
   for (int process = 0; process < 3; ++process)
   {
-    const auto frame = [&](int step) { return grains(step, ids_from(10 * process, 2)); };
+    const auto frame = [&](int step) { return particles(step, ids_from(10 * process, 2)); };
     // killed in step 20, which process 1 had written and the others had not; goes on from 10
     const std::string cut = process == 1 ? frame(20) : less_a_row(frame(20));
     files.push_back(folder.write("d." + std::to_string(process),
@@ -665,7 +667,7 @@ TEST(Pieces, ARunThatWasDoneAgainIsNone)
     for (int run = first; run < first + 2; ++run)
     {
       files.push_back(folder.write("study." + std::to_string(run) + ".dump",
-        grains(0, {}) + grains(10, { 5, 1, run, 9 }) + grains(20, { 5, 1, run, 9 })));
+        particles(0, {}) + particles(10, { 5, 1, run, 9 }) + particles(20, { 5, 1, run, 9 })));
     }
     Series run;
     run.update(files);
@@ -683,7 +685,7 @@ TEST(Pieces, TheFirstIsNumberedZero)
   for (int process = 1; process < 4; ++process)
   {
     files.push_back(
-      folder.write("d." + std::to_string(process), grains(0, ids_from(10 * process, 2))));
+      folder.write("d." + std::to_string(process), particles(0, ids_from(10 * process, 2))));
   }
   Series run;
   run.update(files);
@@ -698,8 +700,8 @@ TEST(Pieces, OneOfTwoThatLags)
 {
   const Folder folder;
   const Files files = { folder.write(
-                          "x.0", grains(0, { 1 }) + grains(10, { 1 }) + grains(20, { 1 })),
-    folder.write("x.1", grains(0, { 2 })) };
+                          "x.0", particles(0, { 1 }) + particles(10, { 1 }) + particles(20, { 1 })),
+    folder.write("x.1", particles(0, { 2 })) };
   Series run;
   run.update(files);
   EXPECT_EQ(run.steps(), Steps{ 0 });
@@ -730,7 +732,7 @@ TEST(Pieces, AnUnreadableOneLeavesTheFrameOut)
   const Folder folder;
   const Files files = write_pieces(folder, "dump.", { 0, 100, 200 }, 3);
   for (const std::string& bytes : { std::string(), std::string("no dump\n"),
-         unfinished(grains(100, { 10, 11 })), std::string("\x1f\x8b\x08\xff damage", 11) })
+         unfinished(particles(100, { 10, 11 })), std::string("\x1f\x8b\x08\xff damage", 11) })
   {
     folder.write("dump.100.1.dump", bytes);
     Series run;
@@ -754,7 +756,7 @@ TEST(Pieces, OneWithAnotherBoxLeavesTheFrameOut)
 {
   const Folder folder;
   const Files files = write_pieces(folder, "dump.", { 0, 100, 200, 300 }, 3);
-  folder.write("dump.100.1.dump", grains(100, { 10, 11 }, "0 2"));
+  folder.write("dump.100.1.dump", particles(100, { 10, 11 }, "0 2"));
   Series run;
   run.update(files);
   EXPECT_EQ(run.steps(), (Steps{ 0, 200, 300 }));
@@ -774,7 +776,7 @@ TEST(Pieces, OfADamagedFileOfManyFramesNoPartIsShown)
     std::string text;
     for (const std::int64_t step : steps)
     {
-      text += grains(step, ids_from(10 * process, 2));
+      text += particles(step, ids_from(10 * process, 2));
     }
     return text;
   };
@@ -901,7 +903,7 @@ TEST(Pieces, TheVeryFirstStepIsBeingWritten)
     }
     Series run;
     const std::string error = error_of([&] { run.update(files); });
-    // nothing is shown, as of an incomplete file; never a part of the grains
+    // nothing is shown, as of an incomplete file; never a part of the particles
     EXPECT_NE(error, "") << done;
     EXPECT_EQ(run.index.size(), 0u) << done;
   }
@@ -910,7 +912,8 @@ TEST(Pieces, TheVeryFirstStepIsBeingWritten)
 TEST(Pieces, OfFilesThatGrowTheLastFrameWaitsForAll)
 {
   const Folder folder;
-  const auto frame = [](int process, int step) { return grains(step, ids_from(10 * process, 2)); };
+  const auto frame = [](int process, int step)
+  { return particles(step, ids_from(10 * process, 2)); };
   for (const int processes : { 2, 3 })
   {
     Files files;
@@ -985,9 +988,9 @@ TEST(Pieces, MergeForcesAllFilesInTheirOrder)
   const Folder folder;
   // names that no rule understands: a rank in letters, another folder
   fs::create_directory(folder.path("b"));
-  const Files files = { folder.write("beta.dump", grains(0, { 3, 4 }) + grains(10, { 3 })),
-    folder.write("b/alpha.dump", grains(0, { 1 }) + grains(10, { 1, 2 })),
-    folder.write("gamma.dump", grains(0, { 5 }) + grains(10, {})) };
+  const Files files = { folder.write("beta.dump", particles(0, { 3, 4 }) + particles(10, { 3 })),
+    folder.write("b/alpha.dump", particles(0, { 1 }) + particles(10, { 1, 2 })),
+    folder.write("gamma.dump", particles(0, { 5 }) + particles(10, {})) };
   Series run;
   run.options.repeated_steps = RepeatedSteps::Merge;
   run.update(files);
@@ -996,9 +999,9 @@ TEST(Pieces, MergeForcesAllFilesInTheirOrder)
   EXPECT_EQ(run.ids(0), (Ids{ 3, 4, 1, 5 }));
   EXPECT_EQ(run.ids(1), (Ids{ 3, 1, 2 }));
   // a timestep with fewer pieces than others
-  folder.append("beta.dump", grains(20, { 3 }) + grains(30, { 3 }));
-  folder.append("b/alpha.dump", grains(30, { 1 }));
-  folder.append("gamma.dump", grains(20, { 5 }) + grains(30, { 5 }));
+  folder.append("beta.dump", particles(20, { 3 }) + particles(30, { 3 }));
+  folder.append("b/alpha.dump", particles(30, { 1 }));
+  folder.append("gamma.dump", particles(20, { 5 }) + particles(30, { 5 }));
   run.update(files);
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 30 }));
   EXPECT_EQ(run.ids(2), (Ids{ 3, 1, 5 }));
@@ -1012,7 +1015,8 @@ TEST(Pieces, MergeOfOneFileAStepChangesNothing)
   const Folder folder;
   Series run;
   run.options.repeated_steps = RepeatedSteps::Merge;
-  run.update({ folder.write("d.10", grains(10, { 2 })), folder.write("d.0", grains(0, { 1 })) });
+  run.update(
+    { folder.write("d.10", particles(10, { 2 })), folder.write("d.0", particles(0, { 1 })) });
   EXPECT_EQ(run.said, "");
   EXPECT_EQ(run.steps(), (Steps{ 0, 10 }));
   EXPECT_EQ(run.ids(0), Ids{ 1 });
@@ -1022,12 +1026,13 @@ TEST(Pieces, MergedFollowARunWithoutAWord)
 {
   // as in Auto, a last frame that some have not written yet is no matter to speak of
   const Folder folder;
-  const Files files = { folder.write("a", grains(0, { 1 })), folder.write("b", grains(0, { 2 })) };
+  const Files files = { folder.write("a", particles(0, { 1 })),
+    folder.write("b", particles(0, { 2 })) };
   Series run;
   run.options.repeated_steps = RepeatedSteps::Merge;
   run.update(files);
-  folder.append("a", grains(10, { 1 }));
-  folder.append("b", unfinished(grains(10, { 2 })));
+  folder.append("a", particles(10, { 1 }));
+  folder.append("b", unfinished(particles(10, { 2 })));
   run.update(files);
   EXPECT_EQ(run.steps(), Steps{ 0 });
   EXPECT_EQ(run.said, "");
@@ -1149,8 +1154,8 @@ TEST(Pieces, AnErrorNamesTheFileAndItsLine)
   {
     Series run;
     run.update(
-      { folder.write("p.0", grains(5, { 1, 2 })), folder.write("p.1", grains(5, { 11, 12 })),
-        folder.write("p.2", header(5, 2) + rows), folder.write("p.3", grains(5, { 31, 32 })) });
+      { folder.write("p.0", particles(5, { 1, 2 })), folder.write("p.1", particles(5, { 11, 12 })),
+        folder.write("p.2", header(5, 2) + rows), folder.write("p.3", particles(5, { 31, 32 })) });
     EXPECT_EQ(run.index.pieces(0).size(), 4u);
     return error_of([&] { run.read(0); });
   };
@@ -1164,9 +1169,9 @@ TEST(Pieces, AnErrorNamesTheFileAndItsLine)
 TEST(Pieces, OneThatWasShortenedOrChangedIsNamed)
 {
   const Folder folder;
-  const Files files = { folder.write("p.0", grains(5, ids_from(0, 100))),
-    folder.write("p.1", grains(5, ids_from(100, 100))),
-    folder.write("p.2", grains(5, ids_from(200, 100))) };
+  const Files files = { folder.write("p.0", particles(5, ids_from(0, 100))),
+    folder.write("p.1", particles(5, ids_from(100, 100))),
+    folder.write("p.2", particles(5, ids_from(200, 100))) };
   Series run;
   run.update(files);
   const auto size = fs::file_size(files[1]);
@@ -1176,7 +1181,7 @@ TEST(Pieces, OneThatWasShortenedOrChangedIsNamed)
       std::to_string(size) + " bytes, got 200; reload the files");
   fs::remove(files[1]);
   EXPECT_EQ(error_of([&] { run.read(0); }), files[1] + ": cannot open: No such file or directory");
-  folder.write("p.1", grains(6, ids_from(100, 100)));
+  folder.write("p.1", particles(6, ids_from(100, 100)));
   EXPECT_EQ(error_of([&] { run.read(0); }),
     files[1] + ": the file changed since it was indexed; reload the files");
 }

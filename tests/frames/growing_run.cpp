@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t step_size = 7; // steps of all lengths: 0, 7, ... 98, 105, ...
 
-/// How many grains there are at a step: more and more, as they are poured, but also none.
+/// How many particles there are at a step: more and more, as they are poured, but also none.
 std::int64_t rows_at(std::int64_t frame, std::int64_t most)
 {
   return frame % 10 == 9 ? 0 : (frame * 7919) % most;
@@ -485,7 +485,7 @@ public:
   {
     for (unsigned process = 0; process < count; ++process)
     {
-      text_[process] += grains(frame * step_size, ids(frame, process));
+      text_[process] += particles(frame * step_size, ids(frame, process));
       ends_[process].push_back(text_[process].size());
     }
   }
@@ -848,7 +848,7 @@ TEST(RemovedFile, OfAPieceTakesTheFramesThatItWasOf)
     for (int process = 0; process < 3; ++process)
     {
       files.push_back(folder.write("d." + std::to_string(step) + "." + std::to_string(process),
-        grains(step, ids_from(10 * process, 2))));
+        particles(step, ids_from(10 * process, 2))));
     }
   }
   Series run;

@@ -100,12 +100,13 @@ Files mixed_run(const Folder& folder)
   std::string text;
   for (int step = 0; step < 40; ++step)
   {
-    text += grains(step, ids_from(1, 3000));
+    text += particles(step, ids_from(1, 3000));
   }
-  return { folder.path("missing"), folder.write("a.dump", grains(100, ids_from(1, 4))),
+  return { folder.path("missing"), folder.write("a.dump", particles(100, ids_from(1, 4))),
     folder.write("b.gz", packing::gzip(text)), folder.write("c.jpg", "\xff\xd8 no dump\n"),
-    folder.write("d.dump", grains(200, ids_from(1, 2)) + grains(300, {}) + "ITEM: TIMESTEP\nx\n"),
-    folder.write("e.zst", packing::zstd_frames(grains(400, ids_from(5, 7)), 100)) };
+    folder.write(
+      "d.dump", particles(200, ids_from(1, 2)) + particles(300, {}) + "ITEM: TIMESTEP\nx\n"),
+    folder.write("e.zst", packing::zstd_frames(particles(400, ids_from(5, 7)), 100)) };
 }
 }
 
@@ -173,7 +174,7 @@ TEST(IndexRanks, NewFilesAreLookedThroughByAll)
         more.push_back(folder.path("more" + std::to_string(i)));
         if (communicator.rank() == 0)
         {
-          folder.write("more" + std::to_string(i), grains(1000 + i, ids_from(1, 5)));
+          folder.write("more" + std::to_string(i), particles(1000 + i, ids_from(1, 5)));
           touch(more.back(), -100);
         }
       }
@@ -202,7 +203,7 @@ TEST(IndexRanks, AFileThatARankSeesOtherwiseIsLookedThroughByRank0)
     {
       if (writes_)
       {
-        folder_.write("b.dump", grains(300, { 3, 4 }));
+        folder_.write("b.dump", particles(300, { 3, 4 }));
         touch(folder_.path("b.dump"), -50);
       }
       return true;
@@ -216,7 +217,7 @@ TEST(IndexRanks, AFileThatARankSeesOtherwiseIsLookedThroughByRank0)
   Files files;
   for (const char* const name : { "a.dump", "b.dump", "c.dump" })
   {
-    files.push_back(folder.write(name, grains(100 * (name[0] - 'a'), { 1, 2 })));
+    files.push_back(folder.write(name, particles(100 * (name[0] - 'a'), { 1, 2 })));
     touch(files.back(), -100);
   }
   run_ranks(ranks_of_tests,
@@ -236,7 +237,7 @@ TEST(IndexRanks, PiecesAreThoseOfRank0)
   for (int piece = 0; piece < 3; ++piece)
   {
     files.push_back(folder.write("run." + std::to_string(piece),
-      grains(0, ids_from(10 * piece, 3)) + grains(5, ids_from(10 * piece, 4))));
+      particles(0, ids_from(10 * piece, 3)) + particles(5, ids_from(10 * piece, 4))));
   }
   run_ranks(ranks_of_tests,
     [&](Communicator& communicator)
@@ -267,7 +268,7 @@ TEST(IndexRanks, OnlyWhatIsNewIsSent)
       EXPECT_FALSE(granular::is_changed(rank.index, rank.ranks));
       if (communicator.rank() == 0)
       {
-        folder.append("a.dump", grains(110, ids_from(7, 2)));
+        folder.append("a.dump", particles(110, ids_from(7, 2)));
       }
       EXPECT_TRUE(granular::is_changed(rank.index, rank.ranks));
       rank.update(files);
@@ -280,7 +281,7 @@ TEST(IndexRanks, OnlyWhatIsNewIsSent)
 TEST(IndexRanks, AllHearWhatIsWrong)
 {
   const Folder folder;
-  const std::string path = folder.write("a.dump", grains(0, { 1, 2 }));
+  const std::string path = folder.write("a.dump", particles(0, { 1, 2 }));
   run_ranks(ranks_of_tests,
     [&](Communicator& communicator)
     {
@@ -352,7 +353,7 @@ TEST(IndexRanks, BytesThatAreNoIndex)
   EXPECT_THROW(index.decode(good + "x"), granular::FormatError);
   // places: those of another run
   Series other;
-  const std::string path = folder.write("z.dump", grains(0, { 1 }));
+  const std::string path = folder.write("z.dump", particles(0, { 1 }));
   other.update({ path });
   const std::string small = other.index.encode();
   constexpr std::size_t places = 44 * 8 + 16;

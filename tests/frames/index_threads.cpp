@@ -87,7 +87,7 @@ TEST(IndexThreads, RealFiles)
 
 TEST(IndexThreads, EveryCutAndEveryGlue)
 {
-  const std::string frames = grains(0, ids_from(1, 6)) + grains(10, ids_from(1, 3));
+  const std::string frames = particles(0, ids_from(1, 6)) + particles(10, ids_from(1, 3));
   const std::string blank = blank_lines_between(frames);
   for (std::size_t cut = 0; cut < frames.size(); cut += 3)
   {
@@ -102,7 +102,7 @@ TEST(IndexThreads, LargeFramesWithTheSizesAsTheyAre)
   std::string text;
   for (const std::int64_t rows : { 300'000, 5, 200'000, 0, 400'000 })
   {
-    text += grains(static_cast<std::int64_t>(text.size()), ids_from(1, rows));
+    text += particles(static_cast<std::int64_t>(text.size()), ids_from(1, rows));
   }
   ASSERT_GT(text.size(), std::size_t{ 15 } << 20);
   const std::string expected = index_of(text, {});
@@ -128,7 +128,7 @@ Files mixed_run(const Folder& folder)
   {
     const std::string name = "run." + std::to_string(i);
     const std::string text =
-      grains(10 * i, ids_from(1, 5 + i)) + grains(10 * i + 5, ids_from(1, 9));
+      particles(10 * i, ids_from(1, 5 + i)) + particles(10 * i + 5, ids_from(1, 9));
     switch (i % 8)
     {
       case 1:
@@ -210,7 +210,7 @@ TEST(IndexThreads, FarMoreFilesThanMayBeOpenAtOnce)
   Files files;
   for (int i = 0; i < 300; ++i)
   {
-    files.push_back(folder.write(std::to_string(i), grains(i, { 1 })));
+    files.push_back(folder.write(std::to_string(i), particles(i, { 1 })));
   }
   rlimit before = {};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
@@ -239,7 +239,7 @@ TEST(IndexThreads, ARunThatGrows)
     EXPECT_EQ(run.said, alone.said) << round;
     for (std::size_t i = 0; i < files.size(); i += 8)
     {
-      const std::string more = grains(1000 * (round + 1), ids_from(1, 20));
+      const std::string more = particles(1000 * (round + 1), ids_from(1, 20));
       std::ofstream(files[i], std::ios::app | std::ios::binary) << more;
     }
   }
@@ -283,7 +283,7 @@ TEST(IndexThreads, SeekPointsOfTheFirstFiles)
   std::string text;
   for (int step = 0; step < 40; ++step)
   {
-    text += grains(step, ids_from(1, 2000));
+    text += particles(step, ids_from(1, 2000));
   }
   const std::string packed = packing::gzip(text);
   std::vector<FileIndex> files(12);
@@ -330,8 +330,8 @@ TEST(IndexThreads, SeekPointsOfTheFirstFiles)
 TEST(IndexThreads, FramesOfCompressedFiles)
 {
   const Folder folder;
-  const std::string frame = grains(0, ids_from(1, 200'000));
-  const std::string text = frame + grains(100, ids_from(1, 200'000));
+  const std::string frame = particles(0, ids_from(1, 200'000));
+  const std::string text = frame + particles(100, ids_from(1, 200'000));
   ASSERT_GT(frame.size(), std::size_t{ 3 } << 20) << "there are several places in it";
   const auto members = [](const std::string& bytes)
   {

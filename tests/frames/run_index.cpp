@@ -25,7 +25,7 @@ using granular::Progress;
 using granular::RunIndex;
 using Times = std::vector<double>;
 
-/// A frame of rows grains, whose x is the timestep.
+/// A frame of rows particles, whose x is the timestep.
 std::string frame(std::int64_t step, int rows = 2, const std::string& before = "")
 {
   const std::string number = std::to_string(step);
@@ -315,7 +315,7 @@ TEST(RunIndex, ACopyReadsWhileTheFileGrows)
     std::string members;
     for (std::int64_t step = from; step < to; ++step)
     {
-      members += packing::gzip(grains(step, ids_from(1, 40'000)));
+      members += packing::gzip(particles(step, ids_from(1, 40'000)));
     }
     return members;
   };

@@ -162,15 +162,15 @@ Exact3 from_scaled(const Cell& cell, const Exact3& scaled)
   return point;
 }
 
-/// One grain: the numbers of its columns.
-struct Grain
+/// One particle: the numbers of its columns.
+struct Particle
 {
   Vector3 numbers;
   Vector3 images;
 };
 
-Exact3 expected(
-  const Cell& cell, Form form, Coordinates wanted, const Grain& grain, const Vector3& point_origin)
+Exact3 expected(const Cell& cell, Form form, Coordinates wanted, const Particle& particle,
+  const Vector3& point_origin)
 {
   const bool is_scaled = form == Form::Scaled || form == Form::ScaledUnwrapped;
   const bool is_unwrapped = form == Form::Unwrapped || form == Form::ScaledUnwrapped;
@@ -183,21 +183,21 @@ Exact3 expected(
   {
     sign = is_unwrapped ? -1 : 0;
   }
-  Exact3 point = { grain.numbers[0], grain.numbers[1], grain.numbers[2] };
+  Exact3 point = { particle.numbers[0], particle.numbers[1], particle.numbers[2] };
   if (wanted == Coordinates::Scaled)
   {
     point = is_scaled ? point : to_scaled(cell, point);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      point[k] = point[k] + Exact(sign * grain.images[k]) - Exact(point_origin[k]);
+      point[k] = point[k] + Exact(sign * particle.images[k]) - Exact(point_origin[k]);
     }
     return point;
   }
   point = is_scaled ? from_scaled(cell, point) : point;
   if (sign != 0)
   {
-    const Vector3 images = { sign * grain.images[0], sign * grain.images[1],
-      sign * grain.images[2] };
+    const Vector3 images = { sign * particle.images[0], sign * particle.images[1],
+      sign * particle.images[2] };
     point = shifted(cell, point, images);
   }
   for (std::size_t k = 0; k < 3; ++k)
@@ -220,15 +220,16 @@ public:
     return (this->*makes[turn_++ % std::size(makes)])();
   }
 
-  /// A grain in the cell, with the numbers of the form as a file would have them.
-  Grain grain(const Cell& cell, Form form, bool rounded)
+  /// A particle in the cell, with the numbers of the form as a file would have them.
+  Particle particle(const Cell& cell, Form form, bool rounded)
   {
-    Grain grain;
+    Particle particle;
     Exact3 scaled;
     for (std::size_t k = 0; k < 3; ++k)
     {
       const std::uint64_t most = std::uint64_t{ 1 } << this->below(21);
-      grain.images[k] = static_cast<double>(this->below(2 * most + 1)) - static_cast<double>(most);
+      particle.images[k] =
+        static_cast<double>(this->below(2 * most + 1)) - static_cast<double>(most);
       double place =
         this->below(8) == 0 ? static_cast<double>(this->below(2)) : 0.5 + 0.6 * this->unit();
       if (this->below(8) == 0 && !cell.box.tilted)
@@ -244,14 +245,14 @@ public:
     if (!is_scaled)
     {
       numbers = from_scaled(cell, scaled);
-      numbers = is_unwrapped ? shifted(cell, numbers, grain.images) : numbers;
+      numbers = is_unwrapped ? shifted(cell, numbers, particle.images) : numbers;
     }
     for (std::size_t k = 0; k < 3; ++k)
     {
-      grain.numbers[k] = static_cast<double>(numbers[k].value);
-      grain.numbers[k] += is_scaled && is_unwrapped ? grain.images[k] : 0;
+      particle.numbers[k] = static_cast<double>(numbers[k].value);
+      particle.numbers[k] += is_scaled && is_unwrapped ? particle.images[k] : 0;
     }
-    return grain;
+    return particle;
   }
 
 private:
@@ -362,21 +363,21 @@ void compare(const Cell& cell, Form form, Coordinates wanted, Cells& cells, Wors
   ASSERT_EQ(plan.coordinates, wanted);
 
   constexpr std::size_t rows = 7;
-  std::vector<Grain> grains;
+  std::vector<Particle> particles;
   std::vector<double> points;
   std::vector<double> images;
   const bool rounded = cells.below(2) == 0;
   for (std::size_t row = 0; row < rows; ++row)
   {
-    grains.push_back(cells.grain(cell, form, rounded));
-    points.insert(points.end(), grains.back().numbers.begin(), grains.back().numbers.end());
-    images.insert(images.end(), grains.back().images.begin(), grains.back().images.end());
+    particles.push_back(cells.particle(cell, form, rounded));
+    points.insert(points.end(), particles.back().numbers.begin(), particles.back().numbers.end());
+    images.insert(images.end(), particles.back().images.begin(), particles.back().images.end());
   }
   Vector3 point_origin = {};
   if (cells.below(2) == 0)
   {
-    // next to the first grain: all but nothing is left of it
-    const Exact3 first = expected(cell, form, wanted, grains[0], {});
+    // next to the first particle: all but nothing is left of it
+    const Exact3 first = expected(cell, form, wanted, particles[0], {});
     point_origin = { static_cast<double>(first[0].value), static_cast<double>(first[1].value),
       static_cast<double>(first[2].value) };
   }
@@ -385,7 +386,7 @@ void compare(const Cell& cell, Form form, Coordinates wanted, Cells& cells, Wors
     has_images ? std::span<const double>(images) : std::span<const double>(), points);
   for (std::size_t row = 0; row < rows; ++row)
   {
-    const Exact3 exact = expected(cell, form, wanted, grains[row], point_origin);
+    const Exact3 exact = expected(cell, form, wanted, particles[row], point_origin);
     for (std::size_t k = 0; k < 3; ++k)
     {
       const double ratio = error_in_bounds(points[3 * row + k], exact[k]);
@@ -427,7 +428,7 @@ TEST(Positions, EveryConversionIsWithinItsBound)
 
 namespace
 {
-/// What becomes of one grain.
+/// What becomes of one particle.
 Vector3 convert(const std::string& columns, const Box& box, Coordinates wanted,
   const Vector3& numbers, const Vector3& images = {}, const Vector3& point_origin = {})
 {
@@ -510,7 +511,7 @@ TEST(Positions, TrapFlatBoxes)
   EXPECT_FALSE(std::isfinite(scaled[2]));
 }
 
-// A grain that was lost on one axis keeps its other coordinates.
+// A particle that was lost on one axis keeps its other coordinates.
 TEST(Positions, TrapNanAndInfinityStayOnTheirAxis)
 {
   const Box box = Box::from_bounds({ 0, 0, 0 }, { 10, 20, 40 });

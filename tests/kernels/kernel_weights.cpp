@@ -3,7 +3,7 @@
 #include "exact_parts.h"
 
 #include "granular/contacts/line_cells.h"
-#include "granular/euler/grain_cells.h"
+#include "granular/euler/particle_cells.h"
 #include "granular/grid/sphere_box.h"
 
 #include "../support/hard_case.h"
@@ -76,11 +76,11 @@ struct Shares
       cells.each_range(line.start, line.branch, visit);
       return;
     }
-    GrainCells cells(smoothing.grid, options_of(smoothing), &box);
+    ParticleCells cells(smoothing.grid, options_of(smoothing), &box);
     EXPECT_GE(cells.check(0.1), 1);
     EXPECT_FALSE(cells.is_direct());
     cells.set_largest_volume(sphere_volume(0.1));
-    GrainCells::Shares room;
+    ParticleCells::Shares room;
     cells.each_share(line.start.data(), 0.1, all, room,
       [&](std::int64_t cell, double share, double volume)
       {

@@ -600,7 +600,7 @@ TEST(Lines, ContactsOfLiggghts)
     for (std::size_t row = 0; row < frame.rows.size(); ++row)
     {
       EXPECT_EQ(made.lines[row].end != second[row], frame.rows[row][8] == 1) << frame.timestep;
-      EXPECT_LT(made.lengths[row], 0.0071); // the largest two grains
+      EXPECT_LT(made.lengths[row], 0.0071); // the largest two particles
       periodic += frame.rows[row][8] == 1;
     }
     const Made split = make(first, second, box_of(frame), PeriodicLines::Split);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of frames of local data, held against the grains of the same run and against plain parsing.
+// Values of frames of local data, held against the particles of the same run and against plain parsing.
 #include "local_files.h"
 
 #include "../support/many_columns.h"
@@ -105,7 +105,7 @@ TEST(LocalReader, ContactsOverlap)
   }
 }
 
-// A bed at rest: what acts on a grain is its weight and the forces of its contacts, which are opposite on both ends,
+// A bed at rest: what acts on a particle is its weight and the forces of its contacts, which are opposite on both ends,
 // but for those of the ground.
 TEST(LocalReader, ForcesAddUp)
 {
@@ -118,19 +118,19 @@ TEST(LocalReader, ForcesAddUp)
   granular::Progress progress;
   index.update({ local_file("settled_grains.dump.gz") }, { .format = &granular::dump_format() },
     notices, progress);
-  granular::LocalFrame grains;
-  grains.table = granular::read_dump(index.pieces(0), {}, notices, progress);
-  ASSERT_EQ(grains.table.rows, 300);
-  const auto ids = values<std::int64_t>(grains, "id");
+  granular::LocalFrame particles;
+  particles.table = granular::read_dump(index.pieces(0), {}, notices, progress);
+  ASSERT_EQ(particles.table.rows, 300);
+  const auto ids = values<std::int64_t>(particles, "id");
   std::map<std::int64_t, std::size_t> row_of;
   for (std::size_t row = 0; row < ids.size(); ++row)
   {
     row_of[ids[row]] = row;
   }
-  const auto* const centres = static_cast<const double*>(grains.table.points.data());
-  const auto radius = values<double>(grains, "radius");
-  const auto mass = values<double>(grains, "mass");
-  const auto total = values<double>(grains, "f");
+  const auto* const centres = static_cast<const double*>(particles.table.points.data());
+  const auto radius = values<double>(particles, "radius");
+  const auto mass = values<double>(particles, "mass");
+  const auto total = values<double>(particles, "f");
   const auto force = values<double>(contacts, "force");
   std::vector<double> sums(total.begin(), total.end());
   for (std::size_t row = 0; row < ids.size(); ++row)

@@ -398,9 +398,9 @@ TEST(LocalReaderVtk, FilesThatAreNone)
   std::filesystem::remove(gone);
   LinesReader reader({ gone });
   reader.ExpectError(gone + ": cannot open: No such file or directory");
-  const std::string grains = Good("grains_1000.dump");
-  LinesReader other({ grains });
-  other.ExpectError(grains +
+  const std::string particles = Good("grains_1000.dump");
+  LinesReader other({ particles });
+  other.ExpectError(particles +
     ":3: expected ITEM: NUMBER OF ENTRIES, or of other things than ATOMS, got 'ITEM: NUMBER OF "
     "ATOMS'");
   LinesReader none({});

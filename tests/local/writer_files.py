@@ -97,9 +97,9 @@ granular.save(OutputPort(bonds, 1), "chain.bonds", Label="ENTRIES", WriteTimeSte
 assert content("chain.bonds") == original.replace(b"BONDS", b"ENTRIES")
 
 # as lines between the particles, with what these give to them; and read again
-grains = GranularDumpReader(FileNames=[good("local/chain.dump")])
+particles = GranularDumpReader(FileNames=[good("local/chain.dump")])
 for way in ("MinimumImage", "Split"):
-    joined = GranularLocalJoin(Input=grains, Lines=OutputPort(bonds, 1), PeriodicLines=way, Averages="v",
+    joined = GranularLocalJoin(Input=particles, Lines=OutputPort(bonds, 1), PeriodicLines=way, Averages="v",
                                EquilibriumLength=1.05)
     granular.save(joined, "joined.bonds", NumberFormat="shortest", WriteTimeSteps=1)
     written = plain_local.read("joined.bonds")

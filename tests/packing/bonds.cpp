@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds of grains: numbers from arithmetic, and each bond against all pairs and their images.
+// Bonds of particles: numbers from arithmetic, and each bond against all pairs and their images.
 #include "../support/packings.h"
 
 #include "granular/common/error.h"
@@ -37,7 +37,7 @@ std::vector<T> values(const granular::Block& block, std::int64_t count)
 struct Bonds
 {
   Bonds(const PackingRequest& request, double factor)
-    : grains(request)
+    : particles(request)
   {
     granular::Progress progress;
     const granular::PackingPlan plan(request, progress);
@@ -66,7 +66,7 @@ struct Bonds
       ends == other.ends;
   }
 
-  Grains grains;
+  Grains particles;
   std::vector<std::int64_t> id1;
   std::vector<std::int64_t> id2;
   std::vector<std::int32_t> btype;
@@ -75,13 +75,13 @@ struct Bonds
 };
 
 /// How many images of the box along each vector a reach needs: sufficient in any box.
-std::array<int, 3> images_for(const Grains& grains, double reach)
+std::array<int, 3> images_for(const Grains& particles, double reach)
 {
   std::array<int, 3> most = {};
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const bool periodic = grains.frame.header.box.boundary[3 * k] == 'p';
-    most[k] = periodic ? static_cast<int>(std::ceil(reach / grains.heights[k])) + 1 : 0;
+    const bool periodic = particles.frame.header.box.boundary[3 * k] == 'p';
+    most[k] = periodic ? static_cast<int>(std::ceil(reach / particles.heights[k])) + 1 : 0;
   }
   return most;
 }
@@ -93,9 +93,9 @@ Quad sqrt_of(Quad square)
   return (root + square / root) / 2;
 }
 
-/// The square of the distance of the nearest images of two grains.
+/// The square of the distance of the nearest images of two particles.
 template <class Float>
-Float nearest(const Grains& grains, std::size_t i, std::size_t j, const std::array<int, 3>& most)
+Float nearest(const Grains& particles, std::size_t i, std::size_t j, const std::array<int, 3>& most)
 {
   Float least = std::numeric_limits<double>::max();
   for (int z = -most[2]; z <= most[2]; ++z)
@@ -107,10 +107,10 @@ Float nearest(const Grains& grains, std::size_t i, std::size_t j, const std::arr
         Float square = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
-          const Float edge = static_cast<Float>(grains.points[j][axis]) - grains.points[i][axis] +
-            x * static_cast<Float>(grains.vectors[0][axis]) +
-            y * static_cast<Float>(grains.vectors[1][axis]) +
-            z * static_cast<Float>(grains.vectors[2][axis]);
+          const Float edge = static_cast<Float>(particles.points[j][axis]) -
+            particles.points[i][axis] + x * static_cast<Float>(particles.vectors[0][axis]) +
+            y * static_cast<Float>(particles.vectors[1][axis]) +
+            z * static_cast<Float>(particles.vectors[2][axis]);
           square += edge * edge;
         }
         least = std::min(least, square);
@@ -121,61 +121,61 @@ Float nearest(const Grains& grains, std::size_t i, std::size_t j, const std::arr
 }
 
 /// All pairs that are near enough, with their distances. Those of which rounding decides would be no test.
-std::map<Pair, long double> all_pairs(const Grains& grains, double factor)
+std::map<Pair, long double> all_pairs(const Grains& particles, double factor)
 {
-  const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
-  const std::array<int, 3> most = images_for(grains, 2 * factor * largest);
+  const double largest = *std::max_element(particles.radius.begin(), particles.radius.end());
+  const std::array<int, 3> most = images_for(particles, 2 * factor * largest);
   std::map<Pair, long double> found;
-  for (std::size_t i = 0; i < grains.size(); ++i)
+  for (std::size_t i = 0; i < particles.size(); ++i)
   {
-    for (std::size_t j = i + 1; j < grains.size(); ++j)
+    for (std::size_t j = i + 1; j < particles.size(); ++j)
     {
       const long double limit =
-        factor * (static_cast<long double>(grains.radius[i]) + grains.radius[j]);
-      const long double distance = std::sqrt(nearest<long double>(grains, i, j, most));
+        factor * (static_cast<long double>(particles.radius[i]) + particles.radius[j]);
+      const long double distance = std::sqrt(nearest<long double>(particles, i, j, most));
       EXPECT_GT(std::abs(distance / limit - 1), 1e-8L);
       if (distance <= limit)
       {
-        found[{ grains.id[i], grains.id[j] }] = distance;
+        found[{ particles.id[i], particles.id[j] }] = distance;
       }
     }
   }
   return found;
 }
 
-/// How far a point is from the nearest image of a grain, in box vectors.
-double away_from_images(Grains& grains, const Vector3& point, std::int64_t id)
+/// How far a point is from the nearest image of a particle, in box vectors.
+double away_from_images(Grains& particles, const Vector3& point, std::int64_t id)
 {
-  grains.points.push_back(point);
-  const Vector3 there = grains.scaled(grains.points.size() - 1);
-  grains.points.pop_back();
-  const Vector3 at = grains.scaled(static_cast<std::size_t>(id - 1));
+  particles.points.push_back(point);
+  const Vector3 there = particles.scaled(particles.points.size() - 1);
+  particles.points.pop_back();
+  const Vector3 at = particles.scaled(static_cast<std::size_t>(id - 1));
   double most = 0;
   for (std::size_t k = 0; k < 3; ++k)
   {
     const double steps = there[k] - at[k];
-    const bool periodic = grains.frame.header.box.boundary[3 * k] == 'p';
+    const bool periodic = particles.frame.header.box.boundary[3 * k] == 'p';
     most = std::max(most, std::abs(periodic ? steps - std::round(steps) : steps));
   }
   return most;
 }
 
 /// What coordinates lose by rounding.
-double tolerance(const Grains& grains)
+double tolerance(const Grains& particles)
 {
-  const Vector3& point = grains.points[0];
+  const Vector3& point = particles.points[0];
   return 1e-13 + 1e-15 * (std::abs(point[0]) + std::abs(point[1]) + std::abs(point[2]));
 }
 
 /// Each bond is what it says, and they are in order.
 void expect_sound(Bonds& bonds)
 {
-  const double rounding = tolerance(bonds.grains);
+  const double rounding = tolerance(bonds.particles);
   for (std::size_t i = 0; i < bonds.size(); ++i)
   {
     const auto& [first, second] = bonds.ends[i];
-    EXPECT_EQ(first, bonds.grains.points[static_cast<std::size_t>(bonds.id1[i] - 1)]);
-    EXPECT_LT(away_from_images(bonds.grains, second, bonds.id2[i]), 10 * rounding);
+    EXPECT_EQ(first, bonds.particles.points[static_cast<std::size_t>(bonds.id1[i] - 1)]);
+    EXPECT_LT(away_from_images(bonds.particles, second, bonds.id2[i]), 10 * rounding);
     EXPECT_NEAR(std::hypot(second[0] - first[0], second[1] - first[1], second[2] - first[2]),
       bonds.length[i], rounding);
     EXPECT_EQ(bonds.btype[i], 1);
@@ -191,9 +191,9 @@ void expect_all_pairs(const PackingRequest& request, double factor)
 {
   Bonds bonds(request, factor);
   expect_sound(bonds);
-  const std::map<Pair, long double> pairs = all_pairs(bonds.grains, factor);
+  const std::map<Pair, long double> pairs = all_pairs(bonds.particles, factor);
   ASSERT_EQ(bonds.size(), pairs.size());
-  const double rounding = tolerance(bonds.grains);
+  const double rounding = tolerance(bonds.particles);
   std::size_t i = 0;
   for (const auto& [pair, distance] : pairs)
   {
@@ -257,7 +257,7 @@ const Case cases[] = {
     [](PackingRequest& r)
     {
       r.arrangement = Arrangement::FaceCentredCubic;
-      r.grains = 0;
+      r.particles = 0;
       r.box = tilted_box({ 1, 2, 3 }, { 8, 9, 7 }, { -2, 5, 3 });
       r.boundary = "p p p";
       r.radii = two_radii(0.3, 0.5, 0.5);
@@ -267,27 +267,27 @@ const Case cases[] = {
     {
       r.arrangement = Arrangement::FaceCentredCubic;
       r.boundary = "p p p";
-      r.grains = 301;
+      r.particles = 301;
     } },
   { "two cells", 1.5,
     [](PackingRequest& r)
     {
       r.arrangement = Arrangement::SimpleCubic;
-      r.grains = 0;
+      r.particles = 0;
       r.box = tilted_box({}, { 2.2, 2.3, 2.5 }, { 0.3, 0.1, -0.2 });
       r.boundary = "p p p";
     } },
   { "thin and sheared: the nearest image is several boxes away", 2.9,
     [](PackingRequest& r)
     {
-      r.grains = 0;
+      r.particles = 0;
       r.box = tilted_box({}, { 20, 20, 1.1 }, { 0, 7.6, 4.4 });
       r.boundary = "p p p";
     } },
   { "few, as near as can be, and three times that", 2.99,
     [](PackingRequest& r)
     {
-      r.grains = 3;
+      r.particles = 3;
       r.box = tilted_box({}, { 2, 2, 2 }, { 0.9, 0.7, -0.8 });
       r.boundary = "p p p";
     } },
@@ -296,7 +296,7 @@ const Case cases[] = {
 PackingRequest request_of(const Case& each)
 {
   PackingRequest request;
-  request.grains = 400;
+  request.particles = 400;
   request.radii = one_radius(0.5);
   each.choose(request);
   return request;
@@ -316,7 +316,7 @@ std::string bonds_error(const PackingRequest& request, double factor)
 }
 }
 
-TEST(PackingBonds, SimpleCubicHasThreeForEachGrainButForWalls)
+TEST(PackingBonds, SimpleCubicHasThreeForEachParticleButForWalls)
 {
   for (const std::size_t n : { 3u, 4u, 7u })
   {
@@ -331,11 +331,11 @@ TEST(PackingBonds, SimpleCubicHasThreeForEachGrainButForWalls)
         n * n * n + 2 * n * n * (n - 1));
     }
   }
-  // of the next nearest, at sqrt(2): six more for each grain
+  // of the next nearest, at sqrt(2): six more for each particle
   EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 5, 5, 5 }, "p p p", 1.42), 9u * 125);
 }
 
-TEST(PackingBonds, APairHasOneAndAGrainNoneWithItself)
+TEST(PackingBonds, APairHasOneAndAParticleNoneWithItself)
 {
   EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 2, 2, 2 }, "p p p", 1.1), 12u);
   EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 2, 2, 2 }, "p p p", 3), 28u);
@@ -344,10 +344,10 @@ TEST(PackingBonds, APairHasOneAndAGrainNoneWithItself)
   EXPECT_EQ(count_of(Arrangement::SimpleCubic, { 1, 1, 1 }, "f f f", 3), 0u);
   // of two ways that are equally long that which stays in the box
   const Bonds two(request_for(Arrangement::SimpleCubic, { 1, 1, 2 }, "p p p"), 1.1);
-  EXPECT_EQ(two.ends[0][1], two.grains.points[1]);
+  EXPECT_EQ(two.ends[0][1], two.particles.points[1]);
 }
 
-TEST(PackingBonds, FaceCentredCubicHasSixForEachGrain)
+TEST(PackingBonds, FaceCentredCubicHasSixForEachParticle)
 {
   const double cell = std::sqrt(2.0);
   for (const double factor : { 1.0, 1.05, 1.4 })
@@ -367,8 +367,8 @@ TEST(PackingBonds, AreThoseOfAllPairs)
   }
 }
 
-// The reference is the shortest image by arithmetic of 113 bits: the images of grains far from the origin have 1e-10
-// of a box of 1, the vector between two grains all its digits.
+// The reference is the shortest image by arithmetic of 113 bits: the images of particles far from the origin have 1e-10
+// of a box of 1, the vector between two particles all its digits.
 TEST(PackingBonds, LengthsAcrossPeriodicFacesAreExact)
 {
   for (const double far : { 0.0, 1e6, -3e5 })
@@ -376,7 +376,7 @@ TEST(PackingBonds, LengthsAcrossPeriodicFacesAreExact)
     for (const Vector3& tilts : { Vector3{}, Vector3{ 0.3, -0.7, 1.3 } })
     {
       PackingRequest request;
-      request.grains = 300;
+      request.particles = 300;
       request.box = tilted_box({ far, -far, far / 3 }, { 3.1, 3.7, 2.9 }, tilts);
       request.boundary = "p p p";
       request.radii = one_radius(0.17);
@@ -387,20 +387,20 @@ TEST(PackingBonds, LengthsAcrossPeriodicFacesAreExact)
         const auto first = static_cast<std::size_t>(bonds.id1[i] - 1);
         const auto second = static_cast<std::size_t>(bonds.id2[i] - 1);
         const auto exact =
-          static_cast<double>(sqrt_of(nearest<Quad>(bonds.grains, first, second, { 2, 2, 2 })));
+          static_cast<double>(sqrt_of(nearest<Quad>(bonds.particles, first, second, { 2, 2, 2 })));
         EXPECT_LE(std::abs(bonds.length[i] - exact), 1.5e-15 * exact) << far;
-        across += bonds.ends[i][1] == bonds.grains.points[second] ? 0u : 1u;
+        across += bonds.ends[i][1] == bonds.particles.points[second] ? 0u : 1u;
       }
       EXPECT_GT(across, 30u);
     }
   }
 }
 
-TEST(PackingBonds, OfAChainJoinConsecutiveGrains)
+TEST(PackingBonds, OfAChainJoinConsecutiveParticles)
 {
   PackingRequest request;
   request.arrangement = Arrangement::Chain;
-  request.grains = 9;
+  request.particles = 9;
   request.spacing = 1.25;
   request.radii = one_radius(0.5);
   Bonds bonds(request, 1); // longer than the factor says
@@ -412,7 +412,7 @@ TEST(PackingBonds, OfAChainJoinConsecutiveGrains)
     EXPECT_EQ(bonds.id2[i], static_cast<std::int64_t>(i + 2));
     EXPECT_NEAR(bonds.length[i], 1.25, 1e-14);
   }
-  request.grains = 1;
+  request.particles = 1;
   EXPECT_EQ(Bonds(request, 1).size(), 0u);
 }
 
@@ -424,7 +424,7 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
     requests.push_back(request_of(each));
   }
   PackingRequest many; // several chunks
-  many.grains = 20000;
+  many.particles = 20000;
   for (const Arrangement arrangement :
     { Arrangement::Random, Arrangement::SimpleCubic, Arrangement::Chain })
   {
@@ -436,9 +436,9 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
     const Bonds whole(request, 1.5);
     EXPECT_GT(whole.size(), 0u);
     std::vector<int> numbers = { 1, 2, 3, 4, 5 };
-    if (whole.grains.size() < 1000)
+    if (whole.particles.size() < 1000)
     {
-      numbers.push_back(500); // most of them with a grain or none
+      numbers.push_back(500); // most of them with a particle or none
     }
     for (const int pieces : numbers)
     {
@@ -450,7 +450,7 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
       {
         joined.append(Bonds(request, 1.5));
       }
-      EXPECT_TRUE(joined == whole) << whole.grains.size() << " grains, " << pieces << " pieces";
+      EXPECT_TRUE(joined == whole) << whole.particles.size() << " grains, " << pieces << " pieces";
     }
   }
 }
@@ -458,7 +458,7 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
 TEST(PackingBonds, ErrorsSayWhatCanBe)
 {
   PackingRequest request;
-  request.grains = 10;
+  request.particles = 10;
   for (const double factor :
     { 0.0, 0.99, 3.01, -1.0, std::numeric_limits<double>::infinity(), std::nan("") })
   {

@@ -34,9 +34,10 @@ const Wrong wrongs[] = {
     "expected a share of the second radius from 0 to 1, got 1.500000" },
   { [](PackingRequest& r) { r.radii = two_radii(0.01, 0.4, 0.5); },
     "expected radii of which the largest is at most 20 times the smallest, got 40.000000 times" },
-  { [](PackingRequest& r) { r.grains = -1; },
+  { [](PackingRequest& r) { r.particles = -1; },
     "expected a number of grains from 0 to 10^12, got -1.000000" },
-  { [](PackingRequest& r) { r.grains = 0; }, "expected a number of grains or a box, got neither" },
+  { [](PackingRequest& r) { r.particles = 0; },
+    "expected a number of grains or a box, got neither" },
   { [](PackingRequest& r) { r.solid_fraction = 0; },
     "expected a solid fraction greater than 0 and at most 0.74, got 0.000000" },
   { [](PackingRequest& r) { r.solid_fraction = nan; },
@@ -87,12 +88,12 @@ const Wrong wrongs[] = {
     "no place was found for a random grain of radius 0.500000 when" },
   { [](PackingRequest& r)
     {
-      r.grains = 5000;
+      r.particles = 5000;
       r.boundary = "p p p";
       r.solid_fraction = 0.45;
     },
     "no place was found for a random grain of radius 0.500000 when" },
-  { [](PackingRequest& r) { r.grains = 10'000'001; },
+  { [](PackingRequest& r) { r.particles = 10'000'001; },
     "expected at most 10^7 random grains, got 10000001.000000: a lattice, SimpleCubic or "
     "FaceCentredCubic, can have more" },
   { [](PackingRequest& r)
@@ -104,7 +105,7 @@ const Wrong wrongs[] = {
     "expected at most 8 grains, which the box holds along its first vector, got 100" },
   { [](PackingRequest& r)
     {
-      r.grains = 0;
+      r.particles = 0;
       r.box = tilted_box({}, { 1.2, 1.2, 1.2 });
     },
     "expected a box that holds a grain at the solid fraction asked for, got 0.000000" },
@@ -131,7 +132,7 @@ TEST(PackingErrors, SayWhatCanBe)
   for (const Wrong& wrong : wrongs)
   {
     PackingRequest request;
-    request.grains = 100;
+    request.particles = 100;
     request.radii = one_radius(0.5);
     wrong.make(request);
     EXPECT_EQ(error_of(request).substr(0, std::string(wrong.text).size()), wrong.text);

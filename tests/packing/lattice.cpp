@@ -34,9 +34,9 @@ PackingRequest on(Arrangement arrangement, const granular::Box& box, const std::
 }
 
 /// By how much the nearest two overlap, their periodic images among them, in diameters: 0 where none do.
-double overlap_of(const Grains& grains)
+double overlap_of(const Grains& particles)
 {
-  const granular::Box& box = grains.frame.header.box;
+  const granular::Box& box = particles.frame.header.box;
   Quad worst = 0;
   for (int n = 0; n < 27; ++n)
   {
@@ -52,23 +52,23 @@ double overlap_of(const Grains& grains)
         shift[axis] += image[k] * (static_cast<Quad>(edge.hi) + edge.lo);
       }
     }
-    for (std::size_t i = 0; there && i < grains.size(); ++i)
+    for (std::size_t i = 0; there && i < particles.size(); ++i)
     {
       for (std::size_t j = 0; j <= i; ++j)
       {
-        const double sum = grains.radius[i] + grains.radius[j];
+        const double sum = particles.radius[i] + particles.radius[j];
         double rough = 0;
         Quad square = 0;
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           const Quad away =
-            static_cast<Quad>(grains.points[i][axis]) - grains.points[j][axis] + shift[axis];
+            static_cast<Quad>(particles.points[i][axis]) - particles.points[j][axis] + shift[axis];
           rough += static_cast<double>(away) * static_cast<double>(away);
           square += away * away;
         }
         if ((i != j || n != 13) && rough < 1.1 * sum * sum)
         {
-          const Quad least = static_cast<Quad>(grains.radius[i]) + grains.radius[j];
+          const Quad least = static_cast<Quad>(particles.radius[i]) + particles.radius[j];
           worst = std::max(worst, (least * least - square) / (2 * least * least));
         }
       }
@@ -80,12 +80,13 @@ double overlap_of(const Grains& grains)
 
 TEST(PackingLattice, SimpleCubicFillsABoxFromWallToWall)
 {
-  const Grains grains(on(Arrangement::SimpleCubic, tilted_box({ 1, 2, 3 }, { 4, 5, 6 }), "f f f"));
-  ASSERT_EQ(grains.size(), 4u * 5 * 6);
-  EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
-  EXPECT_NEAR(grains.least_inside(), 0, 1e-12);
+  const Grains particles(
+    on(Arrangement::SimpleCubic, tilted_box({ 1, 2, 3 }, { 4, 5, 6 }), "f f f"));
+  ASSERT_EQ(particles.size(), 4u * 5 * 6);
+  EXPECT_NEAR(particles.least_gap(), 0, 1e-12);
+  EXPECT_NEAR(particles.least_inside(), 0, 1e-12);
   std::set<std::array<long, 3>> places;
-  for (const Vector3& point : grains.points)
+  for (const Vector3& point : particles.points)
   {
     std::array<long, 3> place = {};
     for (std::size_t k = 0; k < 3; ++k)
@@ -96,31 +97,31 @@ TEST(PackingLattice, SimpleCubicFillsABoxFromWallToWall)
     }
     places.insert(place);
   }
-  EXPECT_EQ(places.size(), grains.size());
+  EXPECT_EQ(places.size(), particles.size());
   EXPECT_EQ(*places.begin(), (std::array<long, 3>{ 0, 0, 0 }));
   EXPECT_EQ(*places.rbegin(), (std::array<long, 3>{ 3, 4, 5 }));
-  EXPECT_EQ(grains.frame.header.box.boundary, "ff ff ff");
+  EXPECT_EQ(particles.frame.header.box.boundary, "ff ff ff");
 }
 
 // Cells are sqrt(2) wide, with four particles each.
 TEST(PackingLattice, FaceCentredCubicIsAClosestPacking)
 {
   const double cell = std::sqrt(2.0);
-  const Grains grains(
+  const Grains particles(
     on(Arrangement::FaceCentredCubic, tilted_box({}, { 3 * cell, 4 * cell, 5 * cell }), "p p p"));
-  ASSERT_EQ(grains.size(), 240u);
-  EXPECT_NEAR(grains.solid_fraction(), std::acos(-1.0) / std::sqrt(18.0), 1e-12);
-  EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
+  ASSERT_EQ(particles.size(), 240u);
+  EXPECT_NEAR(particles.solid_fraction(), std::acos(-1.0) / std::sqrt(18.0), 1e-12);
+  EXPECT_NEAR(particles.least_gap(), 0, 1e-12);
 }
 
 TEST(PackingLattice, PeriodicCellsAreStretchedToTheBox)
 {
-  const Grains grains(on(Arrangement::SimpleCubic, tilted_box({}, { 4.9, 5, 6.1 }), "p p f"));
-  ASSERT_EQ(grains.size(), 4u * 5 * 6);
-  EXPECT_NEAR(grains.points[1][0] - grains.points[0][0], 4.9 / 4, 1e-12);
-  EXPECT_NEAR(grains.points[20][2] - grains.points[0][2], 1, 1e-12); // across z as asked for
-  EXPECT_NEAR(grains.points[0][2], 0.55, 1e-12);                     // and in the middle
-  EXPECT_NEAR(grains.least_gap(), 0, 1e-12);
+  const Grains particles(on(Arrangement::SimpleCubic, tilted_box({}, { 4.9, 5, 6.1 }), "p p f"));
+  ASSERT_EQ(particles.size(), 4u * 5 * 6);
+  EXPECT_NEAR(particles.points[1][0] - particles.points[0][0], 4.9 / 4, 1e-12);
+  EXPECT_NEAR(particles.points[20][2] - particles.points[0][2], 1, 1e-12); // across z as asked for
+  EXPECT_NEAR(particles.points[0][2], 0.55, 1e-12);                        // and in the middle
+  EXPECT_NEAR(particles.least_gap(), 0, 1e-12);
 }
 
 TEST(PackingLattice, SpacingIsTheDistanceOfNeighboursInAnyBox)
@@ -135,11 +136,11 @@ TEST(PackingLattice, SpacingIsTheDistanceOfNeighboursInAnyBox)
         PackingRequest request =
           on(arrangement, tilted_box({ -3, 0, 9 }, { 19, 11, 8 }, tilt), boundary);
         request.spacing = 1.01;
-        const Grains grains(request);
-        EXPECT_GT(grains.size(), 6u);
-        EXPECT_GT(grains.least_gap(), arrangement == Arrangement::Chain ? -1e-11 : 0.01 - 1e-11)
+        const Grains particles(request);
+        EXPECT_GT(particles.size(), 6u);
+        EXPECT_GT(particles.least_gap(), arrangement == Arrangement::Chain ? -1e-11 : 0.01 - 1e-11)
           << boundary << " " << tilt[0];
-        EXPECT_GT(grains.least_inside(), -1e-12) << boundary << " " << tilt[0];
+        EXPECT_GT(particles.least_inside(), -1e-12) << boundary << " " << tilt[0];
       }
     }
   }
@@ -165,39 +166,39 @@ TEST(PackingLattice, NoneOverlapToTheLastBit)
       length = 2 * radius * (i % 2 == 0 ? diameters : diameters + part(random));
     }
     const Vector3 tilts = { radius * part(random), -radius * part(random), 0.5 * radius };
-    const Grains grains(on(arrangements[i % 3],
+    const Grains particles(on(arrangements[i % 3],
       tilted_box({ far, -far, 2 * far }, lengths, i % 4 == 3 ? tilts : Vector3{}),
       std::array{ "f f f", "p p p", "p f p", "f p f" }[i / 3 % 4], radius));
-    hard.add(overlap_of(grains), static_cast<std::int64_t>(grains.size()));
-    for (const double made : grains.radius)
+    hard.add(overlap_of(particles), static_cast<std::int64_t>(particles.size()));
+    for (const double made : particles.radius)
     {
       EXPECT_LE(made, radius);
       EXPECT_GT(made, radius * (1 - 1e-13) - 1e-14 * far);
     }
-    EXPECT_GT(grains.least_inside(), -1e-12 * (1 + far));
+    EXPECT_GT(particles.least_inside(), -1e-12 * (1 + far));
   }
   for (int i = 0; i < 60; ++i)
   {
     const double turn = 0.37 * i;
     const double far = i % 3 == 2 ? 1e6 : 0;
-    const Grains grains(on(arrangements[i % 2],
+    const Grains particles(on(arrangements[i % 2],
       tilted_box({ far, -far, 2 * far }, { 6.2 + std::sin(turn), 7.3 - std::cos(3 * turn), 6.5 },
         { 2 * std::sin(2 * turn), 1.7 * std::cos(turn), -1.1 * std::sin(5 * turn) }),
       i % 4 < 2 ? "p p f" : "f f f"));
-    EXPECT_GT(grains.size(), 60u);
-    hard.add(overlap_of(grains), static_cast<std::int64_t>(grains.size()));
+    EXPECT_GT(particles.size(), 60u);
+    hard.add(overlap_of(particles), static_cast<std::int64_t>(particles.size()));
   }
 }
 
 /// A box with room along x and z, and none along y. 128 pairs once overlapped by 1e-16.
 TEST(PackingLattice, ABoxThatIsTightAlongOneAxis)
 {
-  const Grains grains(on(Arrangement::SimpleCubic,
+  const Grains particles(on(Arrangement::SimpleCubic,
     tilted_box({}, { 6.785606236300253, 10, 8.283244719637754 }), "f f f"));
-  EXPECT_EQ(grains.size(), 6u * 10 * 8);
-  EXPECT_EQ(overlap_of(grains), 0);
-  EXPECT_EQ(grains.radius[0], 0.5);
-  EXPECT_EQ(grains.points[0][1], 0.5);
+  EXPECT_EQ(particles.size(), 6u * 10 * 8);
+  EXPECT_EQ(overlap_of(particles), 0);
+  EXPECT_EQ(particles.radius[0], 0.5);
+  EXPECT_EQ(particles.points[0][1], 0.5);
 }
 
 /// Two cells, next to no room to stretch them; and a pair along a 3-4-5 triangle across two periodic axes, which is 1 apart
@@ -235,17 +236,17 @@ TEST(PackingLattice, ABoxIsMadeForANumber)
       {
         PackingRequest request;
         request.arrangement = arrangement;
-        request.grains = number;
+        request.particles = number;
         request.radii = one_radius(0.3);
         request.boundary = boundary;
         request.corner = { 0.1, -3, 1e3 };
-        const Grains grains(request);
-        ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
-        EXPECT_EQ(grains.frame.header.rows, number);
-        EXPECT_EQ(overlap_of(grains), 0);
-        EXPECT_GT(grains.least_inside(), -1e-12);
-        EXPECT_EQ(*std::ranges::min_element(grains.radius), 0.3);
-        const auto [least, most] = std::ranges::minmax(grains.heights);
+        const Grains particles(request);
+        ASSERT_EQ(particles.size(), static_cast<std::size_t>(number));
+        EXPECT_EQ(particles.frame.header.rows, number);
+        EXPECT_EQ(overlap_of(particles), 0);
+        EXPECT_GT(particles.least_inside(), -1e-12);
+        EXPECT_EQ(*std::ranges::min_element(particles.radius), 0.3);
+        const auto [least, most] = std::ranges::minmax(particles.heights);
         EXPECT_TRUE(arrangement == Arrangement::Chain || most / least < 3);
       }
     }
@@ -256,7 +257,7 @@ TEST(PackingLattice, TheLargestOfSeveralRadiiSetsTheDistance)
 {
   PackingRequest request;
   request.arrangement = Arrangement::FaceCentredCubic;
-  request.grains = 500;
+  request.particles = 500;
   request.radii = two_radii(0.2, 0.5, 0.25);
   const Grains two(request);
   EXPECT_EQ(std::count(two.radius.begin(), two.radius.end(), 0.5), 125);
@@ -270,27 +271,27 @@ TEST(PackingLattice, TheLargestOfSeveralRadiiSetsTheDistance)
 TEST(PackingLattice, FewerThanTheBoxHoldsFillItFromBelow)
 {
   PackingRequest request = on(Arrangement::SimpleCubic, tilted_box({}, { 4, 4, 4 }), "f f f");
-  request.grains = 18;
-  const Grains grains(request);
-  ASSERT_EQ(grains.size(), 18u);
-  EXPECT_EQ(grains.points[15][2], 0.5);
-  EXPECT_EQ(grains.points[17], (Vector3{ 1.5, 0.5, 1.5 }));
+  request.particles = 18;
+  const Grains particles(request);
+  ASSERT_EQ(particles.size(), 18u);
+  EXPECT_EQ(particles.points[15][2], 0.5);
+  EXPECT_EQ(particles.points[17], (Vector3{ 1.5, 0.5, 1.5 }));
 }
 
 TEST(PackingLattice, AChainBeginsARadiusInsideAndIsInTheMiddle)
 {
   PackingRequest request = on(Arrangement::Chain, tilted_box({ 1, 2, 3 }, { 12, 4, 6 }), "f f f");
-  request.grains = 7;
+  request.particles = 7;
   request.spacing = 1.25;
-  const Grains grains(request);
-  ASSERT_EQ(grains.size(), 7u);
+  const Grains particles(request);
+  ASSERT_EQ(particles.size(), 7u);
   for (std::size_t i = 0; i < 7; ++i)
   {
-    EXPECT_NEAR(grains.points[i][0], 1.5 + 1.25 * static_cast<double>(i), 1e-13);
-    EXPECT_NEAR(grains.points[i][1], 4, 1e-13);
-    EXPECT_NEAR(grains.points[i][2], 6, 1e-13);
+    EXPECT_NEAR(particles.points[i][0], 1.5 + 1.25 * static_cast<double>(i), 1e-13);
+    EXPECT_NEAR(particles.points[i][1], 4, 1e-13);
+    EXPECT_NEAR(particles.points[i][2], 6, 1e-13);
   }
-  EXPECT_EQ(grains.frame.schema.text(), "id type mol x y z radius vx vy vz");
+  EXPECT_EQ(particles.frame.schema.text(), "id type mol x y z radius vx vy vz");
 }
 
 TEST(PackingLattice, AChainHasAsManyAsTheBoxHolds)

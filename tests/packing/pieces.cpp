@@ -26,13 +26,13 @@ const Part parts[] = {
   { "random, two sizes, tilted",
     [](PackingRequest& request)
     {
-      request.grains = 0;
+      request.particles = 0;
       request.box = tilted_box({}, { 35, 30, 40 }, { 10, 5, -7 });
       request.boundary = "p p p";
       request.radii = two_radii(0.4, 0.8, 0.2);
     } },
-  { "random, few", [](PackingRequest& request) { request.grains = 5; } },
-  { "random, none but one", [](PackingRequest& request) { request.grains = 1; } },
+  { "random, few", [](PackingRequest& request) { request.particles = 5; } },
+  { "random, none but one", [](PackingRequest& request) { request.particles = 1; } },
   { "random, thin",
     [](PackingRequest& request)
     {
@@ -48,7 +48,7 @@ const Part parts[] = {
 PackingRequest request_of(const Part& part)
 {
   PackingRequest request;
-  request.grains = 6000;
+  request.particles = 6000;
   request.radii = one_radius(0.5);
   request.speed = 1;
   part.choose(request);
@@ -113,11 +113,11 @@ TEST(PackingPieces, RangesAreThoseOfTheValues)
   request.ranges = true;
   request.threads = 3;
   request.pieces = 2;
-  const Grains grains(request);
+  const Grains particles(request);
   granular::ValueRange points(3);
-  points.add(grains.points.data()->data(), grains.size());
-  EXPECT_EQ(grains.frame.points_range.components(), points.components());
-  for (const granular::DumpArray& array : grains.frame.arrays)
+  points.add(particles.points.data()->data(), particles.size());
+  EXPECT_EQ(particles.frame.points_range.components(), points.components());
+  for (const granular::DumpArray& array : particles.frame.arrays)
   {
     ASSERT_TRUE(array.range.known()) << array.info.name;
     if (array.info.name == "radius")
@@ -126,7 +126,7 @@ TEST(PackingPieces, RangesAreThoseOfTheValues)
     }
     if (array.info.name == "id")
     {
-      EXPECT_EQ(array.range.components()[0][1], static_cast<double>(grains.size()));
+      EXPECT_EQ(array.range.components()[0][1], static_cast<double>(particles.size()));
     }
   }
 }

@@ -158,15 +158,15 @@ double volume_of(double radius)
 
 TEST_P(PackingRandom, NoneOverlapAndAllAreInside)
 {
-  const Grains grains(request_of(GetParam()));
-  ASSERT_GT(grains.size(), 10u);
+  const Grains particles(request_of(GetParam()));
+  ASSERT_GT(particles.size(), 10u);
   HardCase hard("packings", "random particles: overlap of the nearest two", "diameters", 0);
-  hard.add(std::max(0.0, -grains.least_gap()), static_cast<std::int64_t>(grains.size()));
-  EXPECT_GT(grains.least_gap(), 0);
-  EXPECT_GE(grains.least_inside(), GetParam().boundary == std::string("f f f") ? 0 : -1e-9);
-  const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
-  const double missing = GetParam().solid_fraction - grains.solid_fraction();
-  EXPECT_LE(std::abs(missing), 1.01 * volume_of(largest) / grains.volume);
+  hard.add(std::max(0.0, -particles.least_gap()), static_cast<std::int64_t>(particles.size()));
+  EXPECT_GT(particles.least_gap(), 0);
+  EXPECT_GE(particles.least_inside(), GetParam().boundary == std::string("f f f") ? 0 : -1e-9);
+  const double largest = *std::max_element(particles.radius.begin(), particles.radius.end());
+  const double missing = GetParam().solid_fraction - particles.solid_fraction();
+  EXPECT_LE(std::abs(missing), 1.01 * volume_of(largest) / particles.volume);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PackingRandom, testing::ValuesIn(cases));
@@ -174,19 +174,19 @@ INSTANTIATE_TEST_SUITE_P(All, PackingRandom, testing::ValuesIn(cases));
 TEST(PackingRandomCounts, IdsCountFromOneAndSharesAreExact)
 {
   PackingRequest request;
-  request.grains = 12345;
+  request.particles = 12345;
   request.radii = two_radii(0.3, 0.5, 0.4);
   request.speed = 2;
-  const Grains grains(request);
-  ASSERT_EQ(grains.size(), 12345u);
-  for (std::size_t i = 0; i < grains.size(); ++i)
+  const Grains particles(request);
+  ASSERT_EQ(particles.size(), 12345u);
+  for (std::size_t i = 0; i < particles.size(); ++i)
   {
-    ASSERT_EQ(grains.id[i], static_cast<std::int64_t>(i) + 1);
-    ASSERT_EQ(grains.type[i], grains.radius[i] == 0.5 ? 2 : 1);
+    ASSERT_EQ(particles.id[i], static_cast<std::int64_t>(i) + 1);
+    ASSERT_EQ(particles.type[i], particles.radius[i] == 0.5 ? 2 : 1);
   }
-  EXPECT_EQ(std::count(grains.type.begin(), grains.type.end(), 2), 4938);
-  EXPECT_NEAR(grains.solid_fraction(), 0.2, 1e-9);
-  EXPECT_EQ(grains.frame.schema.text(), "id type x y z radius vx vy vz");
+  EXPECT_EQ(std::count(particles.type.begin(), particles.type.end(), 2), 4938);
+  EXPECT_NEAR(particles.solid_fraction(), 0.2, 1e-9);
+  EXPECT_EQ(particles.frame.schema.text(), "id type x y z radius vx vy vz");
 }
 
 TEST(PackingRandomCounts, SmallNumbers)
@@ -196,29 +196,29 @@ TEST(PackingRandomCounts, SmallNumbers)
     for (const char* const boundary : { "p p p", "f f f" })
     {
       PackingRequest request;
-      request.grains = number;
+      request.particles = number;
       request.boundary = boundary;
       request.radii = one_radius(0.01);
       request.solid_fraction = 0.05;
-      const Grains grains(request);
-      ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
-      EXPECT_GT(grains.least_gap(), 0);
-      EXPECT_NEAR(grains.solid_fraction(), 0.05, 1e-9);
+      const Grains particles(request);
+      ASSERT_EQ(particles.size(), static_cast<std::size_t>(number));
+      EXPECT_GT(particles.least_gap(), 0);
+      EXPECT_NEAR(particles.solid_fraction(), 0.05, 1e-9);
       request.box = tilted_box({}, { 1e4, 1e4, 1e4 });
       EXPECT_EQ(Grains(request).size(), static_cast<std::size_t>(number));
     }
   }
-  PackingRequest snug; // a grain that touches all faces
-  snug.grains = 1;
+  PackingRequest snug; // a particle that touches all faces
+  snug.particles = 1;
   snug.box = tilted_box({}, { 1, 1, 1 });
   snug.radii = one_radius(0.5);
   EXPECT_EQ(Grains(snug).points[0], (Vector3{ 0.5, 0.5, 0.5 }));
 }
 
-// few grains between walls have little of the room that the solid fraction says
+// few particles between walls have little of the room that the solid fraction says
 TEST(PackingRandomCounts, ABoxThatIsMadeHasRoom)
 {
-  const double grain = volume_of(0.5);
+  const double particle = volume_of(0.5);
   for (const RadiusChoice& radii : { one_radius(0.5), two_radii(0.3, 0.5, 0.3) })
   {
     for (std::int64_t number = 1; number < 100; number += number < 20 ? 1 : 17)
@@ -226,16 +226,16 @@ TEST(PackingRandomCounts, ABoxThatIsMadeHasRoom)
       for (const char* const boundary : { "p p p", "f f f" })
       {
         PackingRequest request;
-        request.grains = number;
+        request.particles = number;
         request.boundary = boundary;
         request.radii = radii;
         request.solid_fraction = 0.3;
         request.seed = static_cast<std::uint64_t>(number);
-        const Grains grains(request);
-        ASSERT_EQ(grains.size(), static_cast<std::size_t>(number));
-        EXPECT_GT(grains.least_gap(), 0);
-        EXPECT_GE(grains.least_inside(), 0);
-        EXPECT_LT(grains.solid_fraction(), 0.3 + 2 * grain / grains.volume);
+        const Grains particles(request);
+        ASSERT_EQ(particles.size(), static_cast<std::size_t>(number));
+        EXPECT_GT(particles.least_gap(), 0);
+        EXPECT_GE(particles.least_inside(), 0);
+        EXPECT_LT(particles.solid_fraction(), 0.3 + 2 * particle / particles.volume);
       }
     }
   }
@@ -244,16 +244,16 @@ TEST(PackingRandomCounts, ABoxThatIsMadeHasRoom)
 TEST(PackingRandomCounts, VelocitiesAreNormal)
 {
   PackingRequest request;
-  request.grains = 100000;
+  request.particles = 100000;
   request.arrangement = granular::Arrangement::SimpleCubic;
   request.speed = 3;
-  const Grains grains(request);
+  const Grains particles(request);
   double sum = 0;
   double squares = 0;
   double fourths = 0;
   double products = 0;
   int beyond = 0;
-  for (const Vector3& v : grains.v)
+  for (const Vector3& v : particles.v)
   {
     for (const double component : v)
     {
@@ -282,13 +282,13 @@ TEST(PackingRandomPlaces, AreEven)
   request.boundary = "p p p";
   request.radii = one_radius(0.5);
   request.solid_fraction = 0.25;
-  const Grains grains(request);
+  const Grains particles(request);
   constexpr std::size_t slices = 40;
-  const double expected = static_cast<double>(grains.size()) / slices;
+  const double expected = static_cast<double>(particles.size()) / slices;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     std::vector<double> counts(slices);
-    for (const Vector3& point : grains.points)
+    for (const Vector3& point : particles.points)
     {
       ++counts[std::min(static_cast<std::size_t>(point[axis] / 70 * slices), slices - 1)];
     }
@@ -301,7 +301,7 @@ TEST(PackingRandomPlaces, AreEven)
   }
 }
 
-// By a program as simple as can be, which looks at all earlier grains, with a generator of the standard library.
+// By a program as simple as can be, which looks at all earlier particles, with a generator of the standard library.
 TEST(PackingRandomPlaces, PairsAreThoseOfPlainAdsorption)
 {
   constexpr double edge = 14;
@@ -315,9 +315,9 @@ TEST(PackingRandomPlaces, PairsAreThoseOfPlainAdsorption)
     request.radii = two_radii(0.6, 1, 0.3);
     request.solid_fraction = 0.28;
     request.seed = static_cast<std::uint64_t>(seed);
-    const Grains grains(request);
-    both[0].add(pairs_of(grains.points, grains.radius, edge));
-    std::vector<double> radii = grains.radius;
+    const Grains particles(request);
+    both[0].add(pairs_of(particles.points, particles.radius, edge));
+    std::vector<double> radii = particles.radius;
     std::ranges::sort(radii, std::greater());
     both[1].add(pairs_of(plain_adsorption(radii, edge, request.seed), radii, edge));
   }
@@ -333,7 +333,7 @@ TEST(PackingRandomPlaces, PairsAreThoseOfPlainAdsorption)
 TEST(PackingRandomPlaces, AnotherSeedGivesOthers)
 {
   PackingRequest request;
-  request.grains = 1000;
+  request.particles = 1000;
   request.radii = two_radii(0.2, 0.4, 0.5);
   request.speed = 1;
   const Grains one(request);

@@ -75,7 +75,8 @@ TEST(PackingSource, GivesWhatADumpWould)
     {
       EXPECT_NE(data->GetAbstractArray(name), nullptr) << name;
     }
-    EXPECT_EQ(data->HasArray("Columns") != 0, output != source.Bonds()); // which are not of grains
+    EXPECT_EQ(
+      data->HasArray("Columns") != 0, output != source.Bonds()); // which are not of particles
   }
 }
 

@@ -40,7 +40,7 @@ hints = source.SMProxy.GetHints()
 assert hints.FindNestedElementByName("ShowInMenu").GetAttribute("category") == "Granular"
 
 
-def grains():
+def particles():
     data = servermanager.Fetch(source)
     arrays = {name: vtk_to_numpy(data.GetPointData().GetArray(name))
               for name in ("id", "type", "radius", "v")}
@@ -55,7 +55,7 @@ def least_gap(points, radius):
     return (numpy.sqrt(square) / (radius[:, None] + radius[None])).min() - 1
 
 
-points, arrays = grains()
+points, arrays = particles()
 assert len(points) == 1000
 assert (arrays["id"] == numpy.arange(1, 1001)).all() and arrays["id"].dtype == numpy.int64
 assert (arrays["type"] == numpy.where(arrays["radius"] == 0.005, 2, 1)).all()
@@ -109,13 +109,13 @@ granular.set_properties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0
 source.UpdatePipeline()
 ResetCamera(view)
 SaveScreenshot("lattice.png", view)
-points, arrays = grains()
+points, arrays = particles()
 assert len(points) > 300
 assert least_gap(points, arrays["radius"]) > 0.05 - 1e-9
 assert 0.4 < arrays["v"].std() < 0.6
 assert (picture("lattice.png") != pixels).any()
 
-# a box that is made for the grains
+# a box that is made for the particles
 granular.set_properties(source, Arrangement="Random", BoxLengths=[0, 0, 0], BoxTilts=[0, 0, 0], NumberOfGrains=5000,
                         SolidFraction=0.25)
 source.UpdatePipeline()
@@ -162,7 +162,7 @@ clip = Threshold(source, Scalars=["POINTS", "id"], ThresholdMethod="Below Lower 
 clip.UpdatePipeline()
 assert clip.GetDataInformation().GetNumberOfPoints() == 100
 
-# a dump of the grains is read back as the grains
+# a dump of the particles is read back as the particles
 granular.set_properties(source, BoxLengths=[0.1, 0.1, 0.1], BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
 path = os.path.abspath("grains.dump")
 SaveData(path, source)

@@ -25,7 +25,7 @@ def digest(data, values, names):
     return [hashlib.sha256(vtk_to_numpy(array).tobytes()).hexdigest() for array in arrays]
 
 
-def grains_of(data):
+def particles_of(data):
     return digest(data, data.GetPointData(), ("id", "type", "radius", "v"))
 
 
@@ -45,8 +45,8 @@ for properties in ({"NumberOfGrains": 1000, "Speed": 1.0, "BoxLengths": (0.1, 0.
     number = properties["NumberOfGrains"]
     assert data.GetNumberOfPoints() == data.GetNumberOfVerts() == number
     assert (vtk_to_numpy(data.GetPointData().GetArray("id")) == numpy.arange(1, number + 1)).all()
-    grains, bonds = alone(**properties)
-    assert grains_of(data) == grains_of(grains), properties
+    particles, bonds = alone(**properties)
+    assert particles_of(data) == particles_of(particles), properties
     if "BondFactor" in properties:
         lines = whole(OutputPort(source, 2))
         assert lines.GetNumberOfLines() == bonds.GetNumberOfLines() > 0, properties

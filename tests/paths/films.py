@@ -31,13 +31,13 @@ def film(source, name):
 
 
 render, chart = CreateView("RenderView"), CreateView("XYChartView")
-grains = granular.reader(os.path.join(data, "moving.dump.gz"), dt=0.5)
+particles = granular.reader(os.path.join(data, "moving.dump.gz"), dt=0.5)
 wanted = ([1500, 1510], 1500, 1510, "Snap To TimeSteps")
 assert times() == wanted, times()
-assert film(grains, "reader") == 2
+assert film(particles, "reader") == 2
 
 contacts = granular.reader(os.path.join(data, "moving_contacts.dump.gz"), dt=0.5, ColumnMap="pos vel id force delta")
-inputs = {"Input": grains, "Lines": contacts, "Points": grains}
+inputs = {"Input": particles, "Lines": contacts, "Points": particles}
 names = sorted(name for group in ("sources", "filters") for name in dir(getattr(servermanager, group))
                if name.startswith("Granular") and not name.endswith("Reader"))
 assert len(names) >= 10, names

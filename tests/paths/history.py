@@ -111,13 +111,13 @@ for names, plainly, arrays, ids in RUNS:
             assert values.dtype == numpy.float64
             assert numpy.array_equal(values.reshape(expected.shape), expected, equal_nan=True), (i, name)
 
-grains, walk = reader_of("grains.dump"), reader_of("paths/walk.dump.gz")
+particles, walk = reader_of("grains.dump"), reader_of("paths/walk.dump.gz")
 frames = plain_dump.read(os.path.join(data, "grains.dump"))
-assert history(grains, "expected at most 1000 particles for columns of their own, got 1200: select fewer, or take STATISTICS") == {}
-assert len(both(grains, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
+assert history(particles, "expected at most 1000 particles for columns of their own, got 1200: select fewer, or take STATISTICS") == {}
+assert len(both(particles, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
                                                  if int(i) % 2 == 0})
-assert list(both(grains, Ids="-5")) == ["time", "timestep"]
-assert len(both(grains, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
+assert list(both(particles, Ids="-5")) == ["time", "timestep"]
+assert len(both(particles, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
 assert both(walk, FrameStride=7, Ids="5")["timestep"].tolist() == list(range(0, 601, 140))
 
 # the time that is shown does not matter

@@ -150,7 +150,7 @@ TEST(KeepId, BinariesOfAllForms)
   for (const binary::Form& form : binary::forms())
   {
     SCOPED_TRACE(form.name);
-    const binary::Bytes bytes = binary::write(form, { binary::grains(form, 5, 90) });
+    const binary::Bytes bytes = binary::write(form, { binary::particles(form, 5, 90) });
     const Dump dump(bytes.bytes, binary::names_for(form));
     if (dump.read().has("id"))
     {
@@ -172,7 +172,7 @@ TEST(KeepId, LargeIds)
 TEST(KeepId, IdsThatAreNone)
 {
   const binary::Form& form = binary::form("plain, little-endian");
-  binary::Frame frame = binary::grains(form, 5, 9);
+  binary::Frame frame = binary::particles(form, 5, 9);
   frame.chunks[0][12] = 7.5;
   const Dump dump(binary::write(form, { frame }).bytes, binary::names_for(form));
   DumpRequest request;

@@ -137,18 +137,18 @@ for names, form, plainly, arrays in KINDS:
     for each in (piped, through, proxy, reader):
         Delete(each)
 
-# ---- grains that appear: most have no place in the first frame ------------------------------------------------------
+# ---- particles that appear: most have no place in the first frame ------------------------------------------------------
 
 frames = plain_dump.read(os.path.join(data, "grains.dump"))
 assert frames[0].rows == 0 and 0 < frames[1].rows
-grains = reader_of("grains.dump")
-through = beside(grains)
+particles = reader_of("grains.dump")
+through = beside(particles)
 times = [0., 1000., 2000.]
 
 
 def both(*, said=None, **properties):
     """The same both ways."""
-    one = draw(grains, times[-1], said, **properties)
+    one = draw(particles, times[-1], said, **properties)
     assert plain_paths.same(one, draw(through, times[-1], said, **properties)), properties
     return one
 
@@ -191,7 +191,7 @@ assert {line["time"][0] for lines in both(TimeWindow=[500, 1500]).values() for l
 alone = both(TimeWindow=[1000, 1000])
 assert len(alone) == frames[1].rows and all(len(lines) == 1 and len(lines[0]["points"]) == 1 and lines[0]["speed"][0] == 0
                                             and lines[0]["length"] == 0 for lines in alone.values())
-proxy = GranularTrajectories(Input=grains, TimeWindow=[1000, 1000])
+proxy = GranularTrajectories(Input=particles, TimeWindow=[1000, 1000])
 proxy.UpdatePipeline(0)
 output = proxy.GetClientSideObject().GetOutput()
 assert output.GetNumberOfVerts() == frames[1].rows and output.GetNumberOfLines() == 0
@@ -287,11 +287,11 @@ for source in (walkers, hidden):
 assert times_of(GranularTrajectories(Input=walkers)) == []
 
 # of grains.dump, whose first frame has no particles, and "*" none of their arrays
-tail = GranularTrajectories(Input=grains, Tail=1, Arrays="*")
+tail = GranularTrajectories(Input=particles, Tail=1, Arrays="*")
 for time in (0, 1000, 2000, 0, 1000, 2000, 1000, 0):
     lines, messages = update(tail, time)
     assert messages == []
-    fresh = draw(grains, time, TimeWindow=[time - 1000, time], Arrays="*") if time else {}
+    fresh = draw(particles, time, TimeWindow=[time - 1000, time], Arrays="*") if time else {}
     assert plain_paths.same(lines, fresh), time
 Delete(tail)
 

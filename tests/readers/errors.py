@@ -80,15 +80,15 @@ def filter_of(kind, file, **properties):
     return lambda: globals()[f"Granular{kind}"](Input=GranularDumpReader(FileNames=[os.path.join(GOOD, file)]), **properties)
 
 
-GRAINS, DATA, BONDS = next_file("grains_1000.dump"), next_file("data_file/full.data"), next_file("local/chain_bonds.dump", ColumnMap="")
+PARTICLES, DATA, BONDS = next_file("grains_1000.dump"), next_file("data_file/full.data"), next_file("local/chain_bonds.dump", ColumnMap="")
 RESTART, CELLS = next_file("restart/fibres.restart"), next_file("euler_1000.vtk")
 SPLIT = {"Mode": "ProcessorGrid", "ProcessorGrid": [2, 1, 1], "XCuts": []}
 LAST = rf" \(on rank {RANKS - 1} of {RANKS}\)" if RANKS > 1 else ""
 # a source, what it says, what mends it, and what each output has then: rows of a table, else cells
 CASES = (
-    (reader("Dump", "gone.dump"), "gone.dump: cannot open", GRAINS, (1200, 1)),
-    (reader("Dump", "broken.dump"), f"broken.dump:910: column 'y': expected a number, got 'zero'{LAST}", GRAINS, (1200, 1)),
-    (reader("Dump", "broken.dump", SortById=1), f"broken.dump:910: column 'y': expected a number, got 'zero'{LAST}", GRAINS, (1200, 1)),
+    (reader("Dump", "gone.dump"), "gone.dump: cannot open", PARTICLES, (1200, 1)),
+    (reader("Dump", "broken.dump"), f"broken.dump:910: column 'y': expected a number, got 'zero'{LAST}", PARTICLES, (1200, 1)),
+    (reader("Dump", "broken.dump", SortById=1), f"broken.dump:910: column 'y': expected a number, got 'zero'{LAST}", PARTICLES, (1200, 1)),
     (reader("DataFile", "gone.data"), "gone.data: cannot open", DATA, (40, 3, 1)),
     (reader("DataFile", "short.data"), "short.data:6: expected 200 rows in the section Atoms, got 199", DATA, (40, 3, 1)),
     (reader("DataFile", "word.data"), "word.data:195: column 'x': expected a number, got '0.O'", DATA, (40, 3, 1)),

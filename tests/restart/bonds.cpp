@@ -349,19 +349,19 @@ TEST(RestartBonds, LikeBruteForce)
   std::mt19937 random(5);
   for (int run = 0; run < 100; ++run)
   {
-    const std::int64_t grains = 1 + static_cast<std::int64_t>(random() % 9);
-    std::vector<BondedGrain> all;
+    const std::int64_t particles = 1 + static_cast<std::int64_t>(random() % 9);
+    std::vector<BondedParticle> all;
     std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> held;
-    for (std::int64_t id = grains; id > 0; --id)
+    for (std::int64_t id = particles; id > 0; --id)
     {
-      BondedGrain grain{ id };
+      BondedParticle particle{ id };
       for (auto bond = random() % 6; bond > 0; --bond)
       {
         const std::int64_t partner = 1 + static_cast<std::int64_t>(random() % 9);
-        grain.bonds.push_back({ static_cast<std::int64_t>(1 + random() % 2), partner });
+        particle.bonds.push_back({ static_cast<std::int64_t>(1 + random() % 2), partner });
         ++held[{ id, partner }];
       }
-      all.push_back(grain);
+      all.push_back(particle);
     }
     std::shuffle(all.begin(), all.end(), random);
     std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> expected;
@@ -370,7 +370,7 @@ TEST(RestartBonds, LikeBruteForce)
       const auto [id, partner] = pair;
       const auto other = held.find({ partner, id });
       const std::int64_t theirs = id == partner || other == held.end() ? 0 : other->second;
-      if (partner <= grains)
+      if (partner <= particles)
       {
         expected[{ std::min(id, partner), std::max(id, partner) }] = std::max(count, theirs);
       }
@@ -387,19 +387,19 @@ TEST(RestartBonds, LikeBruteForce)
 TEST(RestartBonds, AnyThreadsAndPieces)
 {
   std::mt19937 random(7);
-  std::vector<BondedGrain> grains;
+  std::vector<BondedParticle> particles;
   constexpr std::int64_t count = 12000; // of several blocks
   for (std::int64_t i = 0; i < count; ++i)
   {
-    BondedGrain grain{ i * 7919 % count, {}, 0.25 + static_cast<double>(i) / (2 * count) };
+    BondedParticle particle{ i * 7919 % count, {}, 0.25 + static_cast<double>(i) / (2 * count) };
     for (auto bond = random() % 3; bond > 0; --bond)
     {
-      grain.bonds.push_back(
+      particle.bonds.push_back(
         { 1, static_cast<std::int64_t>(random() % count), history(static_cast<double>(bond)) });
     }
-    grains.push_back(grain);
+    particles.push_back(particle);
   }
-  RestartBuilder builder = bonded_file(grains, 12);
+  RestartBuilder builder = bonded_file(particles, 12);
   auto& all = builder.chunks[0];
   builder.chunks = { { all.begin(), all.begin() + 5000 }, {}, { all.begin() + 5000, all.end() } };
   builder.grid = { 1, 3, 1 };
@@ -449,18 +449,18 @@ TEST(RestartBonds, AnyThreadsAndPieces)
 TEST(RestartBonds, AMillionOfOneParticle)
 {
   constexpr std::int64_t many = 1'000'000;
-  std::vector<BondedGrain> grains = { { many + 1 }, { 1 } };
-  grains[0].bonds.reserve(many);
+  std::vector<BondedParticle> particles = { { many + 1 }, { 1 } };
+  particles[0].bonds.reserve(many);
   for (std::int64_t i = 0; i < many; ++i)
   {
-    grains[0].bonds.push_back({ 1, 1 + i % 2 * many });
+    particles[0].bonds.push_back({ 1, 1 + i % 2 * many });
   }
-  grains[1].bonds.assign(many / 2, { 1, many + 1 });
-  const RestartRun run = read_run(bonded_file(grains));
+  particles[1].bonds.assign(many / 2, { 1, many + 1 });
+  const RestartRun run = read_run(bonded_file(particles));
   EXPECT_EQ(run.frame.bonds.table.rows, many);
   EXPECT_NE(run.said().find("bonds of a particle with itself: 500000"), std::string::npos);
 
-  std::vector<BondedGrain> star = { { 0 } };
+  std::vector<BondedParticle> star = { { 0 } };
   for (std::int64_t id = 1; id <= many / 10; ++id)
   {
     star[0].bonds.push_back({ 1, id });

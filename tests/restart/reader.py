@@ -88,7 +88,7 @@ def check_bonds(read, records, arrays):
     assert read.cells("id1").dtype == numpy.int64 and read.cells("btype").dtype == numpy.int32
 
 
-# ---- 31 grains in fibres, on three processes -------------------------------------------------------------
+# ---- 31 particles in fibres, on three processes -------------------------------------------------------------
 
 read = Read(good("fibres.restart"))
 records = plain_restart.Restart(good("fibres.restart")).records
@@ -189,16 +189,16 @@ for pieces in (2, 3, 5, 40):
     assert numpy.concatenate(points).tolist() == list(places)
     assert numpy.concatenate(cells).tolist() == [list(pair) for pair in pairs]
 
-# ---- grains without bonds, and bonds with twelve values, of other programs -------------------------------
+# ---- particles without bonds, and bonds with twelve values, of other programs -------------------------------
 
 if os.path.isdir(shared):
-    grains = Read(os.path.join(shared, "liggghts", "grains.restart"))
+    particles = Read(os.path.join(shared, "liggghts", "grains.restart"))
     records = plain_restart.Restart(os.path.join(shared, "liggghts", "grains.restart")).records
     assert len(records) == 1200
-    check_particles(grains, records)
-    assert grains.lines.GetNumberOfCells() == 0 and grains.said == [], grains.said
+    check_particles(particles, records)
+    assert particles.lines.GetNumberOfCells() == 0 and particles.said == [], particles.said
     walls = numpy.array([record[18:21] for record in records])  # fix property/atom: its length and three values
-    assert (grains.points("f_history_zwalls") == walls).all() and (walls != 0).any()
+    assert (particles.points("f_history_zwalls") == walls).all() and (walls != 0).any()
     beam = Read(os.path.join(shared, "reference", "beam.restart"))
     records = plain_restart.Restart(os.path.join(shared, "reference", "beam.restart")).records
     check_particles(beam, records)

@@ -23,16 +23,16 @@ using restart_builder::RestartBuilder;
 constexpr std::int64_t mib = std::int64_t{ 1 } << 20;
 
 /// Grains in a box of their own, some 17 MiB.
-RestartBuilder many_grains()
+RestartBuilder many_particles()
 {
   RestartBuilder builder;
   builder.chunks = { {}, {} };
   builder.grid = { 2, 1, 1 };
   for (std::int64_t id = 1; id <= 130'000; ++id)
   {
-    restart_builder::Grain grain;
-    grain.tag = id;
-    builder.chunks[id % 3 == 0 ? 1 : 0].push_back(restart_builder::granular_record(grain));
+    restart_builder::Particle particle;
+    particle.tag = id;
+    builder.chunks[id % 3 == 0 ? 1 : 0].push_back(restart_builder::granular_record(particle));
   }
   return builder;
 }
@@ -40,20 +40,20 @@ RestartBuilder many_grains()
 /// A chain, some 17 MiB.
 RestartBuilder many_bonds()
 {
-  std::vector<BondedGrain> grains;
+  std::vector<BondedParticle> particles;
   for (std::int64_t id = 1; id <= 36'000; ++id)
   {
-    grains.push_back({ id, {}, 0.5 });
+    particles.push_back({ id, {}, 0.5 });
     if (id % 2 == 0)
     {
-      grains.back().bonds.push_back({ 1, id - 1, std::vector<double>(12, 0.5) });
+      particles.back().bonds.push_back({ 1, id - 1, std::vector<double>(12, 0.5) });
     }
     if (id > 2)
     {
-      grains.back().bonds.push_back({ 1, 1, std::vector<double>(12, 0.5) });
+      particles.back().bonds.push_back({ 1, 1, std::vector<double>(12, 0.5) });
     }
   }
-  return bonded_file(grains, 12);
+  return bonded_file(particles, 12);
 }
 
 struct Read
@@ -86,7 +86,7 @@ Read read_of(const std::string& bytes, const granular::RestartRequest* request)
 
 TEST(RestartReading, ColumnsOfTheFirstRecords)
 {
-  for (const RestartBuilder& builder : { many_grains(), many_bonds() })
+  for (const RestartBuilder& builder : { many_particles(), many_bonds() })
   {
     const Read read = read_of(builder.file(), nullptr);
     ASSERT_GT(read.size, 12 * mib);
@@ -96,7 +96,7 @@ TEST(RestartReading, ColumnsOfTheFirstRecords)
 
 TEST(RestartReading, AllOnce)
 {
-  for (const RestartBuilder& builder : { many_grains(), many_bonds() })
+  for (const RestartBuilder& builder : { many_particles(), many_bonds() })
   {
     const std::string bytes = builder.file();
     for (const int threads : { 1, 3 })
@@ -113,7 +113,7 @@ TEST(RestartReading, AllOnce)
 // Those behind are not read, but for one block of each thread.
 TEST(RestartReading, TheFirstPiece)
 {
-  const std::string bytes = many_grains().file();
+  const std::string bytes = many_particles().file();
   for (const int threads : { 1, 3 })
   {
     granular::RestartRequest request;

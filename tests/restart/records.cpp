@@ -27,7 +27,7 @@ using granular::DumpArray;
 using granular::DumpFrame;
 using granular::RestartRequest;
 using granular::ValueType;
-using restart_builder::Grain;
+using restart_builder::Particle;
 using restart_builder::Record;
 using restart_builder::RestartBuilder;
 
@@ -149,15 +149,15 @@ RestartBuilder file_of(const std::string& style, const std::vector<Record>& reco
 }
 
 /// One part of a style: common values, then these.
-Record part_of(const Grain& grain, const std::vector<double>& more)
+Record part_of(const Particle& particle, const std::vector<double>& more)
 {
-  Record record = restart_builder::common_block(grain);
+  Record record = restart_builder::common_block(particle);
   restart_builder::append(record, more);
   return record;
 }
 }
 
-TEST(RestartRecords, GrainsAsTheirDump)
+TEST(RestartRecords, ParticlesAsTheirDump)
 {
   const std::string restart = shared_file("liggghts/grains.restart");
   if (restart.empty())
@@ -283,9 +283,10 @@ TEST(RestartRecords, WholeNumbers)
   {
     for (const bool swapped : { false, true })
     {
-      Grain grain{ (std::int64_t{ 1 } << 53) - 1, 1, 7, 0, { 0.25, 0.5, 0.75 }, { 1, 2, 3 }, bits };
+      Particle particle{ (std::int64_t{ 1 } << 53) - 1, 1, 7, 0, { 0.25, 0.5, 0.75 }, { 1, 2, 3 },
+        bits };
       RestartBuilder builder =
-        file_of("granular", { restart_builder::granular_record(grain, 0.5, { 4, 5, 6 }) });
+        file_of("granular", { restart_builder::granular_record(particle, 0.5, { 4, 5, 6 }) });
       builder.swapped = swapped;
       builder.tag_bytes = 8;
       const DumpFrame frame = read_run(builder).frame.particles;
@@ -316,7 +317,7 @@ TEST(RestartRecords, Images)
           continue; // a double has not so many
         }
         const std::int64_t image = restart_builder::image_of(1, count, count, bits);
-        Grain values;
+        Particle values;
         values.bits = false;
         Record record = restart_builder::granular_record(values);
         record[7] = as_bits ? restart_builder::bits_of(image) : static_cast<double>(image);
@@ -340,9 +341,9 @@ TEST(RestartRecords, LargeImages)
       granular::ImageCounts{ half - 1, half - 1, half - 1 }, granular::ImageCounts{ 0, 0, 52223 },
       granular::ImageCounts{ 1, 2, 52224 }, granular::ImageCounts{ -1, half - 1, 65536 } })
   {
-    Grain grain;
-    grain.image = restart_builder::image_of(counts.x, counts.y, counts.z, 21);
-    RestartBuilder builder = file_of("granular", { restart_builder::granular_record(grain) });
+    Particle particle;
+    particle.image = restart_builder::image_of(counts.x, counts.y, counts.z, 21);
+    RestartBuilder builder = file_of("granular", { restart_builder::granular_record(particle) });
     builder.tag_bytes = 8;
     EXPECT_EQ(values_of<std::int32_t>(read_run(builder).frame.particles, "image"),
       (std::vector<std::int32_t>{ counts.x, counts.y, counts.z }));
@@ -351,9 +352,9 @@ TEST(RestartRecords, LargeImages)
 
 TEST(RestartRecords, RequestsAndColumns)
 {
-  Grain grain;
-  grain.x = { 10.25, 0.5, 0.75 };
-  RestartBuilder builder = file_of("granular", { restart_builder::granular_record(grain) });
+  Particle particle;
+  particle.x = { 10.25, 0.5, 0.75 };
+  RestartBuilder builder = file_of("granular", { restart_builder::granular_record(particle) });
   builder.hi = { 20, 1, 1 };
   builder.timestep = 77;
   builder.time = 0.125;
@@ -383,19 +384,19 @@ TEST(RestartRecords, RequestsAndColumns)
 
 TEST(RestartRecords, UnknownStyles)
 {
-  Grain grain;
-  grain.v = { 1, 2, 3 };
-  const RestartRun alone = read_run(file_of("peri/secret", { part_of(grain, { 1, 2, 3, 4 }) }));
+  Particle particle;
+  particle.v = { 1, 2, 3 };
+  const RestartRun alone = read_run(file_of("peri/secret", { part_of(particle, { 1, 2, 3, 4 }) }));
   EXPECT_EQ(values_of<double>(alone.frame.particles, "v"), (std::vector<double>{ 1, 2, 3 }));
   EXPECT_EQ(alone.notices.size(), 1u);
   EXPECT_NE(alone.said().find("'peri/secret'"), std::string::npos);
 
   // first of a hybrid: where it ends is found
   RestartBuilder builder = file_of("hybrid",
-    { restart_builder::join({ part_of(grain, { 11, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }),
-        restart_builder::granular_record(grain, 0.75) }),
+    { restart_builder::join({ part_of(particle, { 11, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 }),
+        restart_builder::granular_record(particle, 0.75) }),
       restart_builder::join(
-        { part_of(grain, { 1 }), restart_builder::granular_record(grain, 0.5) }) });
+        { part_of(particle, { 1 }), restart_builder::granular_record(particle, 0.5) }) });
   builder.styles = { "peri/secret", "granular" };
   const RestartRun first = read_run(builder);
   EXPECT_EQ(values_of<double>(first.frame.particles, "radius"), (std::vector<double>{ 0.75, 0.5 }));
@@ -404,7 +405,7 @@ TEST(RestartRecords, UnknownStyles)
   // another length than the table says
   builder = file_of("hybrid",
     { restart_builder::join(
-      { restart_builder::granular_record(grain, 0.75), part_of(grain, { 1, 2 }) }) });
+      { restart_builder::granular_record(particle, 0.75), part_of(particle, { 1, 2 }) }) });
   builder.styles = { "granular", "charge" };
   const RestartRun other = read_run(builder);
   EXPECT_EQ(values_of<double>(other.frame.particles, "radius"), std::vector<double>{ 0.75 });
@@ -442,12 +443,12 @@ TEST(RestartRecords, EveryStyleOfTheTable)
           entries = 2 - entries;
         }
       }
-      Grain grain;
-      grain.bits = bits;
-      const RestartRun alone = read_run(file_of(name, { part_of(grain, more) }));
+      Particle particle;
+      particle.bits = bits;
+      const RestartRun alone = read_run(file_of(name, { part_of(particle, more) }));
       RestartBuilder builder = file_of("hybrid",
         { restart_builder::join(
-          { part_of(grain, more), restart_builder::granular_record(grain, 0.75) }) });
+          { part_of(particle, more), restart_builder::granular_record(particle, 0.75) }) });
       builder.styles = { name, "granular" };
       const RestartRun both = read_run(builder);
       for (const RestartRun* const run : { &alone, &both })
@@ -477,9 +478,9 @@ TEST(RestartRecords, WhatFixesHave)
     std::vector<Record> records;
     for (std::size_t i = 0; i < behind.size(); ++i)
     {
-      Grain grain;
-      grain.tag = static_cast<std::int64_t>(i) + 1;
-      records.push_back(restart_builder::granular_record(grain));
+      Particle particle;
+      particle.tag = static_cast<std::int64_t>(i) + 1;
+      records.push_back(restart_builder::granular_record(particle));
       restart_builder::append(records.back(), behind[i]);
     }
     RestartBuilder builder = file_of("granular", records);
@@ -559,9 +560,9 @@ TEST(RestartRecords, FixesInAnotherOrder)
 // A style of which the records are longer than the table says, with no fix that could have made them so.
 TEST(RestartRecords, LongerThanTheTable)
 {
-  Grain grain;
-  grain.v = { 1, 2, 3 };
-  const Record longer = part_of(grain, { 0.5, 4, 5, 7, 7, 7, 1, 2, 3 });
+  Particle particle;
+  particle.v = { 1, 2, 3 };
+  const Record longer = part_of(particle, { 0.5, 4, 5, 7, 7, 7, 1, 2, 3 });
   RestartBuilder builder = file_of("granular", { longer, longer });
   for (const bool has_fix : { false, true })
   {
@@ -592,10 +593,13 @@ TEST(RestartRecords, AnyThreadsAndPieces)
   std::string ids;
   for (std::int64_t id = 1; id <= 60000; ++id)
   {
-    Grain grain;
-    grain.tag = id;
-    grain.x[1] = static_cast<double>(id) / 65536;
-    chunks[id < 100 ? 0 : id % 7 == 0 ? 1 : 2].push_back(restart_builder::granular_record(grain));
+    Particle particle;
+    particle.tag = id;
+    particle.x[1] = static_cast<double>(id) / 65536;
+    chunks[id < 100   ? 0
+        : id % 7 == 0 ? 1
+                      : 2]
+      .push_back(restart_builder::granular_record(particle));
   }
   RestartBuilder builder = file_of("granular", {});
   builder.chunks = chunks;

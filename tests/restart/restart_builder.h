@@ -33,7 +33,7 @@ inline std::int64_t image_of(std::int64_t x, std::int64_t y, std::int64_t z, int
 }
 
 /// What all atom styles begin with. bits: whole numbers are bits, else values.
-struct Grain
+struct Particle
 {
   std::int64_t tag = 1;
   std::int64_t type = 1;
@@ -45,12 +45,12 @@ struct Grain
 };
 
 /// The 11 doubles of all styles; the first is 11.
-inline Record common_block(const Grain& grain)
+inline Record common_block(const Particle& particle)
 {
   const auto slot = [&](std::int64_t number)
-  { return grain.bits ? bits_of(number) : static_cast<double>(number); };
-  return { 11, grain.x[0], grain.x[1], grain.x[2], slot(grain.tag), slot(grain.type),
-    slot(grain.mask), slot(grain.image), grain.v[0], grain.v[1], grain.v[2] };
+  { return particle.bits ? bits_of(number) : static_cast<double>(number); };
+  return { 11, particle.x[0], particle.x[1], particle.x[2], slot(particle.tag), slot(particle.type),
+    slot(particle.mask), slot(particle.image), particle.v[0], particle.v[1], particle.v[2] };
 }
 
 inline void append(Record& record, const std::vector<double>& more)
@@ -61,10 +61,10 @@ inline void append(Record& record, const std::vector<double>& more)
 
 /// Style granular (sphere): 17 doubles. Density 2500.
 inline Record granular_record(
-  const Grain& grain, double radius = 0.1, const std::array<double, 3>& omega = {})
+  const Particle& particle, double radius = 0.1, const std::array<double, 3>& omega = {})
 {
   constexpr double density = 2500;
-  Record record = common_block(grain);
+  Record record = common_block(particle);
   append(record,
     { radius, 4. / 3 * 3.14159265358979323846 * radius * radius * radius * density, density,
       omega[0], omega[1], omega[2] });
@@ -80,10 +80,10 @@ struct BondOf
 
 /// Style bond/gran: the 11 doubles, molecule, bonds, type and partner of each; then, unless history_values is 0, this number and the
 /// history of each.
-inline Record bond_block(const Grain& grain, const std::vector<BondOf>& bonds, int history_values,
-  std::int64_t molecule = 0)
+inline Record bond_block(const Particle& particle, const std::vector<BondOf>& bonds,
+  int history_values, std::int64_t molecule = 0)
 {
-  Record record = common_block(grain);
+  Record record = common_block(particle);
   append(record, { static_cast<double>(molecule), static_cast<double>(bonds.size()) });
   for (const BondOf& bond : bonds)
   {

@@ -203,7 +203,7 @@ TEST(RestartFile, FilesOfProcessesAreLookedThroughOnce)
     return granular::find_restart_layout(index, *granular::open_file(base), notices, progress);
   };
   EXPECT_EQ(look(), index.layout);
-  file.chunks[1] = grains(4, 20);
+  file.chunks[1] = particles(4, 20);
   folder.write("r1.restart", file.part(1));
   EXPECT_THROW(look(), granular::FormatError) << "the base says how many particles there are";
 }

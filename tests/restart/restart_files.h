@@ -28,15 +28,15 @@ inline granular::RestartLayout layout_of_file(const std::string& path)
 }
 
 /// Grains with ids from `first` on, in the box from 0 to 1.
-inline std::vector<restart_builder::Record> grains(std::int64_t first, std::size_t count)
+inline std::vector<restart_builder::Record> particles(std::int64_t first, std::size_t count)
 {
   std::vector<restart_builder::Record> records;
   for (std::size_t i = 0; i < count; ++i)
   {
-    restart_builder::Grain grain;
-    grain.tag = first + static_cast<std::int64_t>(i);
-    grain.x[0] = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(count);
-    records.push_back(restart_builder::granular_record(grain));
+    restart_builder::Particle particle;
+    particle.tag = first + static_cast<std::int64_t>(i);
+    particle.x[0] = 0.1 + 0.8 * static_cast<double>(i) / static_cast<double>(count);
+    records.push_back(restart_builder::granular_record(particle));
   }
   return records;
 }
@@ -53,7 +53,7 @@ inline restart_builder::RestartBuilder small_file()
   file.forces = "any bytes \x01\x02 of a force field";
   file.global_fixes = { { "pts1", "particletemplate/sphere", std::string(16, '\x07') } };
   file.peratom_fixes = { { "contacthistory", "contacthistory", 9 }, { "pa", "property/atom", 4 } };
-  file.chunks = { grains(1, 3), grains(4, 2) };
+  file.chunks = { particles(1, 3), particles(4, 2) };
   return file;
 }
 #endif

@@ -79,7 +79,7 @@ void expect_small(const RestartLayout& layout)
 
 // ---- real files --------------------------------------------------------------------------------
 
-TEST(RestartLayout, BeamOfBondedGrains)
+TEST(RestartLayout, BeamOfBondedParticles)
 {
   const std::string path = shared_file("reference/beam.restart");
   if (path.empty())
@@ -123,7 +123,7 @@ TEST(RestartLayout, BeamOfBondedGrains)
   EXPECT_EQ(layout.size, 6143);
 }
 
-TEST(RestartLayout, GrainsOfFourProcesses)
+TEST(RestartLayout, ParticlesOfFourProcesses)
 {
   const std::string path = shared_file("liggghts/grains.restart");
   if (path.empty())
@@ -301,11 +301,11 @@ TEST(RestartLayout, LoneBondStyle)
 TEST(RestartLayout, WholeNumbersAsValues)
 {
   RestartBuilder file;
-  restart_builder::Grain grain;
-  grain.bits = false;
-  grain.tag = 9;
-  grain.image = 537395712;
-  file.chunks = { { restart_builder::granular_record(grain) } };
+  restart_builder::Particle particle;
+  particle.bits = false;
+  particle.tag = 9;
+  particle.image = 537395712;
+  file.chunks = { { restart_builder::granular_record(particle) } };
   EXPECT_EQ(layout_of(file.file()).records, 1);
 }
 
@@ -335,7 +335,7 @@ TEST(RestartLayout, EmptyChunksAnywhere)
     {
       if ((filled >> process) & 1)
       {
-        file.chunks[process] = grains(records + 1, process + 1);
+        file.chunks[process] = particles(records + 1, process + 1);
         records += process + 1;
       }
     }
@@ -492,7 +492,7 @@ TEST(RestartLayout, FixesOfNoParticles)
   for (const bool particles : { false, true })
   {
     file.peratom_fixes = { { "p\x01", "property/atom", 4 } };
-    file.chunks = { grains(1, particles ? 1 : 0) };
+    file.chunks = { particles(1, particles ? 1 : 0) };
     granular::Notices notices;
     granular::Progress progress;
     const std::string bytes = file.file();

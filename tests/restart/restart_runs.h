@@ -138,7 +138,7 @@ struct HeldBond
 };
 
 /// A file of the style hybrid granular bond/gran: particle id, the bonds it holds, and where it is.
-struct BondedGrain
+struct BondedParticle
 {
   std::int64_t id = 1;
   std::vector<HeldBond> bonds = {};
@@ -146,26 +146,26 @@ struct BondedGrain
 };
 
 inline restart_builder::RestartBuilder bonded_file(
-  const std::vector<BondedGrain>& grains, int history_values = 0)
+  const std::vector<BondedParticle>& particles, int history_values = 0)
 {
   restart_builder::RestartBuilder builder;
   builder.atom_style = "hybrid";
   builder.styles = { "granular", "bond/gran" };
   std::int32_t most = 6;
-  for (const BondedGrain& of : grains)
+  for (const BondedParticle& of : particles)
   {
     most = std::max(most, static_cast<std::int32_t>(of.bonds.size()));
-    restart_builder::Grain grain;
-    grain.tag = of.id;
-    grain.x[0] = of.x;
-    restart_builder::Grain values = grain;
+    restart_builder::Particle particle;
+    particle.tag = of.id;
+    particle.x[0] = of.x;
+    restart_builder::Particle values = particle;
     values.bits = false;
     std::vector<restart_builder::BondOf> bonds;
     for (const HeldBond& bond : of.bonds)
     {
       bonds.push_back({ bond.type, bond.partner, bond.history });
     }
-    builder.chunks[0].push_back(restart_builder::join({ restart_builder::granular_record(grain),
+    builder.chunks[0].push_back(restart_builder::join({ restart_builder::granular_record(particle),
       restart_builder::bond_block(values, bonds, history_values) }));
   }
   builder.bond_styles = { { 1, most } };

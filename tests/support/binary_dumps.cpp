@@ -249,7 +249,7 @@ std::int64_t integer_at(const std::string& bytes, const Form& form, const Field&
   return value;
 }
 
-Frame grains(const Form& form, std::int64_t step, std::int64_t rows, std::int32_t triclinic)
+Frame particles(const Form& form, std::int64_t step, std::int64_t rows, std::int32_t triclinic)
 {
   Frame frame;
   frame.timestep = step;
@@ -269,7 +269,7 @@ Frame grains(const Form& form, std::int64_t step, std::int64_t rows, std::int32_
   {
     frame.units = "si";
     frame.time = 0.5 * static_cast<double>(step);
-    frame.columns = grain_columns;
+    frame.columns = particle_columns;
   }
   frame.chunks = { {}, {}, {} };
   for (std::int64_t row = 0; row < rows; ++row)
@@ -286,6 +286,6 @@ Frame grains(const Form& form, std::int64_t step, std::int64_t rows, std::int32_
 
 std::string names_for(const Form& form)
 {
-  return form.named() ? "" : grain_columns;
+  return form.named() ? "" : particle_columns;
 }
 }

@@ -86,9 +86,9 @@ std::int64_t integer_at(const std::string& bytes, const Form& form, const Field&
 
 /// Some rows of "id type x y z ix iy iz vx vy vz radius" in three chunks, the middle one empty; the
 /// values name their step, row and column.
-Frame grains(const Form& form, std::int64_t step, std::int64_t rows, std::int32_t triclinic = 0);
+Frame particles(const Form& form, std::int64_t step, std::int64_t rows, std::int32_t triclinic = 0);
 
-inline constexpr const char* grain_columns = "id type x y z ix iy iz vx vy vz radius";
+inline constexpr const char* particle_columns = "id type x y z ix iy iz vx vy vz radius";
 
 /// Their column names, for forms that do not hold them.
 std::string names_for(const Form& form);

@@ -27,10 +27,10 @@ class Averages:
     """A filter after the readers of a run. kind: EulerAverage or PointAverage."""
 
     def __init__(self, name, kind="EulerAverage", lines=True, walls=True, on=tuple(ALL), **properties):
-        self.grains = reader_of("Dump", name)
+        self.particles = reader_of("Dump", name)
         self.filter = getattr(granular, "vtkGranular" + kind)()
         self.filter.SetController(None)
-        self.filter.SetInputConnection(0, self.grains.GetOutputPort())
+        self.filter.SetInputConnection(0, self.particles.GetOutputPort())
         if lines:
             self.lines = local_of(name + "_contacts")
             self.filter.SetLinesConnection(self.lines.GetOutputPort(1 if name in ROWS else 0))
@@ -76,12 +76,12 @@ class Run:
     """Particles, and all contacts as lines: start, branch, force, ends that count; forces of walls are reversed."""
 
     def __init__(self, name, step, lines=True, walls=True):
-        self.grains = plain.Particles(name, step)
+        self.particles = plain.Particles(name, step)
         parts = []
         if lines:
             pairs = plain.Contacts(name + "_contacts", step)
-            start = self.grains.x[self.grains.rows(pairs.ids[0])] if name in ROWS else pairs.ends[:, 0]
-            parts.append((start, plain.branches(self.grains, pairs)[0], pairs.force, 2))
+            start = self.particles.x[self.particles.rows(pairs.ids[0])] if name in ROWS else pairs.ends[:, 0]
+            parts.append((start, plain.branches(self.particles, pairs)[0], pairs.force, 2))
         if walls and name not in ROWS:
             rows = plain.Contacts(name + "_walls", step)
             parts.append((rows.ends[:, 0], rows.ends[:, 1] - rows.ends[:, 0], -rows.force, 1))
@@ -89,21 +89,21 @@ class Run:
         self.counted = numpy.concatenate([numpy.full(len(part[0]), part[3]) for part in parts])
         self.virial = plain.products(self.branch, self.force)
         self.normals = self.branch / numpy.linalg.norm(self.branch, axis=1)[:, None]
-        self.size = numpy.diag(self.grains.vectors)
+        self.size = numpy.diag(self.particles.vectors)
         self.periodic = (pairs if lines else rows).periodic
-        self.v = self.grains.frame.stack(["vx", "vy", "vz"])
+        self.v = self.particles.frame.stack(["vx", "vy", "vz"])
 
     def images(self):
         """What to add for each image."""
-        most = 1 if (numpy.diag(self.size) == self.grains.vectors).all() else 2  # in a tilted box others come near
-        return [numpy.array(each) @ self.grains.vectors for each in
+        most = 1 if (numpy.diag(self.size) == self.particles.vectors).all() else 2  # in a tilted box others come near
+        return [numpy.array(each) @ self.particles.vectors for each in
                 itertools.product(*(range(-most, most + 1) if flag else (0,) for flag in self.periodic))]
 
     def wrapped(self):
         """Particles moved between the planes that are the lengths of the box apart, the last axis first."""
-        x = self.grains.x.copy()
+        x = self.particles.x.copy()
         for axis in (2, 1, 0):
-            x -= numpy.floor((x[:, axis] - self.grains.origin[axis]) / self.size[axis])[:, None] * self.grains.vectors[axis]
+            x -= numpy.floor((x[:, axis] - self.particles.origin[axis]) / self.size[axis])[:, None] * self.particles.vectors[axis]
         return x
 
 

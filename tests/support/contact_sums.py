@@ -33,10 +33,10 @@ class Sums:
     """The filter after the readers of a run. lines: lines of the reader, or its rows; both of them if it is None."""
 
     def __init__(self, name, walls=True, rows=False, on=NAMES, lines=True, local=None, **properties):
-        self.grains = reader_of("Dump", name)
+        self.particles = reader_of("Dump", name)
         self.filter = granular.vtkGranularContactSums()
         self.filter.SetController(None)
-        self.filter.SetInputConnection(0, self.grains.GetOutputPort())
+        self.filter.SetInputConnection(0, self.particles.GetOutputPort())
         self.contacts = local_of(name + "_contacts", **(local or {}))
         if lines:
             self.filter.SetLinesConnection(self.contacts.GetOutputPort(1 if rows else 0))

@@ -80,9 +80,9 @@ Grains::Grains(const granular::PackingRequest& request)
   }
 }
 
-Vector3 Grains::scaled(std::size_t grain) const
+Vector3 Grains::scaled(std::size_t particle) const
 {
-  const Vector3& point = points[grain];
+  const Vector3& point = points[particle];
   const Vector3 edge = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
   Vector3 place;
   for (std::size_t i = 0; i < 3; ++i)

@@ -16,9 +16,9 @@ struct Grains
   explicit Grains(const granular::PackingRequest& request);
 
   /// In units of the box vectors.
-  granular::Vector3 scaled(std::size_t grain) const;
+  granular::Vector3 scaled(std::size_t particle) const;
 
-  /// The least distance of two surfaces, in units of the sum of the radii, periodic images and a grain's
+  /// The least distance of two surfaces, in units of the sum of the radii, periodic images and a particle's
   /// own among them; below 0 where two overlap.
   double least_gap() const;
 
@@ -26,7 +26,7 @@ struct Grains
   /// one, in heights. Below 0: something is outside.
   double least_inside() const;
 
-  /// Volume of all grains by that of the box.
+  /// Volume of all particles by that of the box.
   double solid_fraction() const;
 
   /// All values, byte by byte.

@@ -3,7 +3,7 @@
 import numpy
 
 
-def grains(frame):
+def particles(frame):
     """What a frame of plain_dump has, as averages need it."""
     return {"x": frame.stack(["x", "y", "z"]), "v": frame.stack(["vx", "vy", "vz"]),
             "radius": frame.numbers("radius"), "mass": frame.numbers("mass")}
@@ -21,11 +21,11 @@ def _find(along, places):
     return cells
 
 
-def by_centres(grains, lo, hi, counts, periodic):
+def by_centres(particles, lo, hi, counts, periodic):
     """Grain, cell and share of each grain whose centre is in a cell."""
     indices = []
     for axis in range(3):
-        places = grains["x"][:, axis].copy()
+        places = particles["x"][:, axis].copy()
         if axis in periodic:  # by whole lengths of the box, which is the grid's
             length = hi[axis] - lo[axis]
             places -= length * numpy.floor((places - lo[axis]) / length)
@@ -36,24 +36,24 @@ def by_centres(grains, lo, hi, counts, periodic):
     return numpy.flatnonzero(inside), cells[inside], numpy.ones(inside.sum())
 
 
-def by_slabs(grains, axis, lo, hi, count, periodic):
+def by_slabs(particles, axis, lo, hi, count, periodic):
     """Of cells that are slabs, as wide as all grains: a sphere below a plane is a cap."""
-    along, radius = faces(lo, hi, count), grains["radius"]
+    along, radius = faces(lo, hi, count), particles["radius"]
     parts = []
     for image in (-1, 0, 1) if periodic else (0,):
-        places = grains["x"][:, axis] + image * (hi - lo)
+        places = particles["x"][:, axis] + image * (hi - lo)
         height = numpy.clip(radius + along[:, None] - places, 0, 2 * radius)
         below = height**2 * (3 * radius - height) / (4 * radius**3)
-        cell, grain = numpy.nonzero(numpy.diff(below, axis=0) > 0)
-        parts.append((grain, cell, numpy.diff(below, axis=0)[cell, grain]))
+        cell, particle = numpy.nonzero(numpy.diff(below, axis=0) > 0)
+        parts.append((particle, cell, numpy.diff(below, axis=0)[cell, particle]))
     return [numpy.concatenate(part) for part in zip(*parts)]
 
 
-def sums(grains, shares, size):
+def sums(particles, shares, size):
     """Mass and momentum in each cell."""
-    grain, cell, share = shares
-    weight = share * grains["mass"][grain]
-    momentum = [numpy.bincount(cell, weight * grains["v"][grain, k], size) for k in range(3)]
+    particle, cell, share = shares
+    weight = share * particles["mass"][particle]
+    momentum = [numpy.bincount(cell, weight * particles["v"][particle, k], size) for k in range(3)]
     return numpy.bincount(cell, weight, size), numpy.column_stack(momentum)
 
 
@@ -62,16 +62,16 @@ def divide(above, below):
     return numpy.divide(above, below, out=numpy.zeros_like(above), where=below > 0)
 
 
-def values(grains, shares, size, volume):
+def values(particles, shares, size, volume):
     """The arrays of the cells, which have that volume, by name."""
-    grain, cell, share = shares
-    mass, momentum = sums(grains, shares, size)
+    particle, cell, share = shares
+    mass, momentum = sums(particles, shares, size)
     velocity = divide(momentum, mass[:, None])
-    apart = grains["v"][grain] - velocity[cell]
-    solid = 4 / 3 * numpy.pi * grains["radius"][grain]**3
-    energy = numpy.bincount(cell, share * grains["mass"][grain] * (apart**2).sum(axis=1), size)
+    apart = particles["v"][particle] - velocity[cell]
+    solid = 4 / 3 * numpy.pi * particles["radius"][particle]**3
+    energy = numpy.bincount(cell, share * particles["mass"][particle] * (apart**2).sum(axis=1), size)
     found = {"v_avg": velocity, "volumefraction": numpy.bincount(cell, share * solid, size) / volume,
-             "radius": divide(numpy.bincount(cell, share * grains["radius"][grain], size),
+             "radius": divide(numpy.bincount(cell, share * particles["radius"][particle], size),
                               numpy.bincount(cell, share, size)),
              "pressure": energy / volume / 3}
     return {name: rows.reshape(size, -1) for name, rows in found.items()}
@@ -83,20 +83,20 @@ def _rounding(numbers, digits=6):
     return 0.5 * 10.0 ** (size + 1 - digits)
 
 
-def uncertainty(grains, shares, size):
+def uncertainty(particles, shares, size):
     """How far v_avg may be from that of the simulation, which printed its grains with six digits."""
-    grain, cell, share = shares
-    mass, momentum = sums(grains, shares, size)
-    apart = abs(grains["v"][grain] - divide(momentum, mass[:, None])[cell])
-    of_masses = share[:, None] * _rounding(grains["mass"])[grain, None] * apart
-    of_velocities = (share * grains["mass"][grain])[:, None] * _rounding(grains["v"])[grain]
+    particle, cell, share = shares
+    mass, momentum = sums(particles, shares, size)
+    apart = abs(particles["v"][particle] - divide(momentum, mass[:, None])[cell])
+    of_masses = share[:, None] * _rounding(particles["mass"])[particle, None] * apart
+    of_velocities = (share * particles["mass"][particle])[:, None] * _rounding(particles["v"])[particle]
     terms = of_masses + of_velocities
     return divide(numpy.column_stack([numpy.bincount(cell, terms[:, k], size) for k in range(3)]), mass[:, None])
 
 
 def shared(shares, owners, size):
     """Which cells have grains of several owners."""
-    grain, cell, _ = shares
+    particle, cell, _ = shares
     seen = numpy.zeros((size, owners.max() + 1), bool)
-    seen[cell, owners[grain]] = True
+    seen[cell, owners[particle]] = True
     return seen.sum(axis=1) > 1

@@ -40,8 +40,8 @@ inline std::string header(std::int64_t step, std::size_t rows,
     bounds + "\nITEM: ATOMS " + columns + "\n";
 }
 
-/// A frame of grains with these ids, whose x is the timestep.
-inline std::string grains(std::int64_t step, const Ids& ids, const std::string& bounds = "0 1")
+/// A frame of particles with these ids, whose x is the timestep.
+inline std::string particles(std::int64_t step, const Ids& ids, const std::string& bounds = "0 1")
 {
   std::string text = header(step, ids.size(), "id x y z", bounds);
   for (const std::int64_t id : ids)

@@ -13,10 +13,10 @@ MODES = [{"ParallelMode": mode} for mode in ("Gather", "MPI-IO")]
 
 
 def dump():
-    grains = GranularDumpReader(FileNames=[good("grains.dump")])
-    faulty = changed_on(1, grains, "short = vtkDoubleArray(); short.SetName('radius'); short.InsertNextValue(1); "
+    particles = GranularDumpReader(FileNames=[good("grains.dump")])
+    faulty = changed_on(1, particles, "short = vtkDoubleArray(); short.SetName('radius'); short.InsertNextValue(1); "
                                    "data.GetPointData().AddArray(short)")
-    return grains, [(faulty, "old.dump")], [{"WriteTimeSteps": 1, **mode} for mode in MODES]
+    return particles, [(faulty, "old.dump")], [{"WriteTimeSteps": 1, **mode} for mode in MODES]
 
 
 def local():

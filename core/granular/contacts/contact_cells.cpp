@@ -3,7 +3,7 @@
 
 #include "granular/contacts/line_cells.h"
 #include "granular/euler/block_sums.h"
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_loader.h"
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/parallel/trade.h"
 

@@ -2,7 +2,7 @@
 #ifndef granular_contacts_line_cells_h
 #define granular_contacts_line_cells_h
 
-#include "granular/euler/grain_cells.h"
+#include "granular/euler/particle_cells.h"
 #include "granular/geometry/box.h"
 #include "granular/grid/cell_finder.h"
 #include "granular/grid/euler_grid.h"
@@ -20,7 +20,7 @@
 namespace granular
 {
 /// Divides lines among the cells of a grid: by their length in each cell, or by a kernel (see SmoothCells). Lines have the
-/// periodic images that grains have.
+/// periodic images that particles have.
 class LineCells
 {
 public:

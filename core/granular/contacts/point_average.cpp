@@ -2,7 +2,7 @@
 #include "granular/contacts/point_average.h"
 
 #include "granular/contacts/point_sources.h"
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_loader.h"
 #include "granular/geometry/rounded_sums.h"
 
 #include <algorithm>
@@ -56,22 +56,22 @@ struct PointSums
   using Near = std::span<const std::uint32_t>;
 
   /// Returns the sum of the weights.
-  double add_grains(std::size_t to, const Vector3& point, Near near)
+  double add_particles(std::size_t to, const Vector3& point, Near near)
   {
-    const auto weight = [&](const NearGrain& grain)
+    const auto weight = [&](const NearParticle& particle)
     {
-      const Vector3 r = { point[0] - grain.place[0], point[1] - grain.place[1],
-        point[2] - grain.place[2] };
+      const Vector3 r = { point[0] - particle.place[0], point[1] - particle.place[1],
+        point[2] - particle.place[2] };
       return request.kernel.value(dot(r, r)) * per_volume;
     };
     const auto sums = sum_terms<7>(near.size(),
       [&](std::size_t i, std::array<double, 7>& terms)
       {
-        const NearGrain& grain = found.grains[near[i]];
-        const double w = weight(grain);
-        const double mass = w * grain.mass;
-        const auto& [x, y, z] = grain.velocity;
-        terms = { w, mass, mass * x, mass * y, mass * z, w * grain.radius, w * grain.volume };
+        const NearParticle& particle = found.particles[near[i]];
+        const double w = weight(particle);
+        const double mass = w * particle.mass;
+        const auto& [x, y, z] = particle.velocity;
+        terms = { w, mass, mass * x, mass * y, mass * z, w * particle.radius, w * particle.volume };
         return w > 0;
       });
     const Vector3 mean = mean_velocity(&sums[1]);
@@ -81,9 +81,9 @@ struct PointSums
       const auto fluctuations = sum_terms<7>(near.size(),
         [&](std::size_t i, std::array<double, 7>& terms)
         {
-          const NearGrain& grain = found.grains[near[i]];
-          const double w = weight(grain);
-          terms = fluctuation_terms(w * grain.mass, grain.velocity.data(), mean);
+          const NearParticle& particle = found.particles[near[i]];
+          const double w = weight(particle);
+          terms = fluctuation_terms(w * particle.mass, particle.velocity.data(), mean);
           return w > 0;
         });
       averages.store_fluctuations(to, fluctuations.data(), sums[1], 1);
@@ -142,8 +142,8 @@ EulerAverages average_at_points(const FrameView& frame, std::span<const double> 
   return do_together(ranks,
     [&]
     {
-      const GrainSources sources = find_grain_sources(frame, request.arrays);
-      check_grains(frame, sources, request.arrays, false, ranks, notices);
+      const ParticleSources sources = find_particle_sources(frame, request.arrays);
+      check_particles(frame, sources, request.arrays, false, ranks, notices);
       // a little more than the support, as the kernel decides by rounded distances
       const double support = request.kernel.support();
       const double reach = support * (1 + 0x1p-48);
@@ -161,7 +161,7 @@ EulerAverages average_at_points(const FrameView& frame, std::span<const double> 
         sums.averages.make_contact_room(
           count, request.tensors && contacts->have_forces(), request.fields);
       }
-      const Bins near_grains = bins_of(own, 2 * support, reach, found.grains);
+      const Bins near_particles = bins_of(own, 2 * support, reach, found.particles);
       const Bins near_lines = bins_of(own, 2 * support, reach, found.lines);
       parts.set_part(0.2, 1);
       executor.for_each_stretch(
@@ -171,7 +171,7 @@ EulerAverages average_at_points(const FrameView& frame, std::span<const double> 
           for (std::size_t i = first; i < first + size; ++i)
           {
             const Vector3 point = { points[3 * i], points[3 * i + 1], points[3 * i + 2] };
-            const double share = sums.add_grains(i, point, near_grains.near(point));
+            const double share = sums.add_particles(i, point, near_particles.near(point));
             if (contacts)
             {
               sums.add_lines(i, point, near_lines.near(point), share);

@@ -18,15 +18,15 @@ namespace granular
 struct PointAverageRequest
 {
   Kernel kernel{ KernelShape::Gaussian, 1 };
-  GrainArrays arrays;
+  ParticleArrayNames arrays;
   bool pressure = true; ///< false, without tensors or a temperature: no fluctuations are looked at
   bool tensors = false; ///< fill normal_stress and shear_stress
   EulerFieldSet fields;
 };
 
-/// Averages the grains of a frame, and their contacts, at any points by a smoothing kernel: as average_in_cells does, with
+/// Averages the particles of a frame, and their contacts, at any points by a smoothing kernel: as average_in_cells does, with
 /// kernel / volume of the kernel in place of w / V, and the mean of the kernel over the line for contacts. The integral of the
-/// density over all space is the mass. Grains and contacts have periodic images, but not in a general box.
+/// density over all space is the mass. Particles and contacts have periodic images, but not in a general box.
 ///
 /// points: x y z of each, absolute, of this rank; the result has an entry for each, in order, and no centres. A point that is
 /// not finite gets zeros. Sums are correctly rounded, of terms that are rounded doubles: the same for any order of rows,

@@ -14,7 +14,7 @@ namespace granular
 {
 namespace
 {
-constexpr auto most_rows = static_cast<std::int64_t>(GrainBlock::most_rows);
+constexpr auto most_rows = static_cast<std::int64_t>(ParticleBlock::most_rows);
 
 /// Extents of the points of all ranks.
 using Extents = std::vector<Extent>;
@@ -67,16 +67,16 @@ std::vector<Thing> send(std::vector<Thing> things, const Extents& extents, Commu
   return trade(out, counts, swap_numbers(counts, ranks), ranks);
 }
 
-std::vector<NearGrain> find_grains(const FrameView& frame, const GrainSources& sources,
+std::vector<NearParticle> find_particles(const FrameView& frame, const ParticleSources& sources,
   const Extents& extents, std::int64_t& broken, Progress& progress)
 {
-  const GrainValues values(frame, sources);
+  const ParticleLoader values(frame, sources);
   const PeriodicImages images = find_images(frame, extents);
   images.check(0);
-  std::vector<NearGrain> grains;
-  GrainBlock block;
-  std::vector<std::int64_t> rows(GrainBlock::most_rows);
-  GrainValues::Scan scan;
+  std::vector<NearParticle> particles;
+  ParticleBlock block;
+  std::vector<std::int64_t> rows(ParticleBlock::most_rows);
+  ParticleLoader::Scan scan;
   for (std::int64_t first = 0; first < frame.rows; first += most_rows)
   {
     const auto count = std::min(frame.rows - first, most_rows);
@@ -90,16 +90,16 @@ std::vector<NearGrain> find_grains(const FrameView& frame, const GrainSources& s
         images.each(block.positions + 3 * i, 0,
           [&](const Twofold3& image)
           {
-            const NearGrain grain = { values_of(image), { v[0], v[1], v[2] }, block.mass[i],
+            const NearParticle particle = { values_of(image), { v[0], v[1], v[2] }, block.mass[i],
               block.radius[i], sphere_volume(block.radius[i]) };
-            add(grain, extents, grains);
+            add(particle, extents, particles);
           });
       }
     }
     progress.step(static_cast<double>(first) / static_cast<double>(frame.rows));
   }
   broken = scan.broken;
-  return grains;
+  return particles;
 }
 
 /// The longest component of the branches of all ranks.
@@ -164,9 +164,9 @@ std::vector<NearLine> find_lines(const FrameView& frame, const FoundEnds& contac
 }
 }
 
-Extent extent_of(const NearGrain& grain) noexcept
+Extent extent_of(const NearParticle& particle) noexcept
 {
-  return { grain.place, grain.place };
+  return { particle.place, particle.place };
 }
 
 Extent extent_of(const NearLine& line) noexcept
@@ -178,7 +178,7 @@ Extent extent_of(const NearLine& line) noexcept
   return extent;
 }
 
-PointSources find_point_sources(const FrameView& frame, const GrainSources& sources,
+PointSources find_point_sources(const FrameView& frame, const ParticleSources& sources,
   const FoundEnds* contacts, const Extent& wanted, Communicator& ranks, Progress& progress)
 {
   return do_together(ranks,
@@ -186,9 +186,9 @@ PointSources find_point_sources(const FrameView& frame, const GrainSources& sour
     {
       const Extents extents = gather(ranks, wanted);
       PointSources found;
-      found.grains = find_grains(frame, sources, extents, found.broken, progress);
+      found.particles = find_particles(frame, sources, extents, found.broken, progress);
       ranks.sum({ &found.broken, 1 });
-      found.grains = send(std::move(found.grains), extents, ranks);
+      found.particles = send(std::move(found.particles), extents, ranks);
       if (contacts)
       {
         found.lines = send(find_lines(frame, *contacts, extents, ranks, progress), extents, ranks);

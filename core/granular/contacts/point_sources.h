@@ -4,7 +4,7 @@
 
 #include "granular/common/progress.h"
 #include "granular/contacts/find_ends.h"
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_loader.h"
 #include "granular/geometry/box.h"
 #include "granular/grid/euler_grid.h"
 #include "granular/parallel/communicator.h"
@@ -53,8 +53,8 @@ private:
   std::vector<std::uint32_t> things_;
 };
 
-/// A grain, or an image of it.
-struct NearGrain
+/// A particle, or an image of it.
+struct NearParticle
 {
   Vector3 place;
   Vector3 velocity;
@@ -77,16 +77,16 @@ struct NearLine
 /// Particles that reach the points of this rank, of all ranks and with periodic images.
 struct PointSources
 {
-  std::vector<NearGrain> grains;
+  std::vector<NearParticle> particles;
   std::vector<NearLine> lines;
-  std::int64_t broken = 0; ///< grains of all ranks that are left out: see GrainValues::load
+  std::int64_t broken = 0; ///< particles of all ranks that are left out: see ParticleLoader::load
 };
 
-Extent extent_of(const NearGrain& grain) noexcept;
+Extent extent_of(const NearParticle& particle) noexcept;
 Extent extent_of(const NearLine& line) noexcept;
 
 /// Brings what touches an extent to this rank. contacts may be null. Throws LimitError for too many images; Cancelled. Collective.
-PointSources find_point_sources(const FrameView& frame, const GrainSources& sources,
+PointSources find_point_sources(const FrameView& frame, const ParticleSources& sources,
   const FoundEnds* contacts, const Extent& wanted, Communicator& ranks, Progress& progress);
 }
 #endif

@@ -65,8 +65,9 @@ enum Count : std::size_t
 };
 using Counts = std::array<std::int64_t, CountKinds>;
 
-/// Tells what is not known of the grains. The same on all ranks: grains speak for those who have none.
-void check_known(const Counts& known, const GrainArrays& arrays, bool need_radius, Notices& notices)
+/// Tells what is not known of the particles. The same on all ranks: particles speak for those who have none.
+void check_known(
+  const Counts& known, const ParticleArrayNames& arrays, bool need_radius, Notices& notices)
 {
   struct Missing
   {
@@ -100,8 +101,8 @@ void check_known(const Counts& known, const GrainArrays& arrays, bool need_radiu
 }
 }
 
-std::int64_t check_grains(const FrameView& frame, const GrainSources& sources,
-  const GrainArrays& arrays, bool need_radius, Communicator& ranks, Notices& notices)
+std::int64_t check_particles(const FrameView& frame, const ParticleSources& sources,
+  const ParticleArrayNames& arrays, bool need_radius, Communicator& ranks, Notices& notices)
 {
   if (frame.rows > 0 && !frame.points)
   {
@@ -216,22 +217,24 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
   return do_together(ranks,
     [&]
     {
-      const GrainSources sources = find_grain_sources(frame, request.arrays);
-      const std::int64_t rows = check_grains(frame, sources, request.arrays,
+      const ParticleSources sources = find_particle_sources(frame, request.arrays);
+      const std::int64_t rows = check_particles(frame, sources, request.arrays,
         request.cells.weights == CellWeights::Overlap, ranks, notices);
       check_memory(request);
       return AveragePasses(frame, sources, rows, request, ranks, executor, progress).run();
     });
 }
 
-double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks)
+double largest_radius(const FrameView& frame, const ParticleArrayNames& arrays, Communicator& ranks)
 {
   return do_together(ranks,
     [&]
     {
       double largest = 0;
-      const std::optional<ValueSource> radius =
-        find_grain_sources(frame, { .velocity = {}, .radius = arrays.radius, .mass = {} }).radius;
+      const std::optional<ValueSource> radius = find_particle_sources(frame,
+        { .velocity = {},
+          .radius = arrays.radius,
+          .mass = {} }).radius;
       if (frame.rows > 0 && !radius)
       {
         throw Error("expected an array '" + arrays.radius + "' of radii, got none");

@@ -5,8 +5,8 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/euler/cells.h"
-#include "granular/euler/grain_cells.h"
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_cells.h"
+#include "granular/euler/particle_loader.h"
 #include "granular/grid/euler_grid.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
@@ -38,7 +38,7 @@ struct EulerAverageRequest
 {
   EulerGrid grid;
   WeightOptions cells;
-  GrainArrays arrays;
+  ParticleArrayNames arrays;
   WantedCells wanted;     ///< of this rank
   bool keep_sums = false; ///< fill EulerAverages::sums
   bool pressure = true; ///< false, without tensors or a temperature: no fluctuations are looked at
@@ -67,7 +67,7 @@ struct EulerAverages
   EulerSums sums; ///< of the wanted ones, or empty
   std::int64_t outside =
     0; ///< particles that touch no cell; with Centre, particles whose centre is in none
-  std::int64_t broken = 0; ///< particles that were left out: see GrainValues::load
+  std::int64_t broken = 0; ///< particles that were left out: see ParticleLoader::load
 
   /// Makes room for so many cells, and for what is wanted of particles.
   void make_room(std::int64_t count, bool tensors, const EulerFieldSet& wanted);
@@ -114,25 +114,25 @@ inline std::array<double, 7> fluctuation_terms(
     mass * (x * x + y * y + z * z) };
 }
 
-/// Averages the grains of a frame over the cells of a grid. With the share w of a grain in a cell, its mass m, radius r,
+/// Averages the particles of a frame over the cells of a grid. With the share w of a particle in a cell, its mass m, radius r,
 /// velocity v, stress times volume S, and V the volume of the cell:
-///   v_avg = sum w m v / sum w m; radius = sum w r / sum w; volume fraction = volume of the grains in the cell / V;
+///   v_avg = sum w m v / sum w m; radius = sum w r / sum w; volume fraction = volume of the particles in the cell / V;
 ///   stress = sum (-w m (v - v_avg)(v - v_avg) + w S) / V; pressure = -trace(stress) / 3
-/// as fix ave/euler of LIGGGHTS has it, where w is 1 or 0: the grains of one moment, no average over time. Without S
+/// as fix ave/euler of LIGGGHTS has it, where w is 1 or 0: the particles of one moment, no average over time. Without S
 /// the stress is that of the fluctuations of velocity alone; components of v - v_avg count as 0 up to 2^-49 v_avg, which
 /// rounding may make: particles of one velocity have no pressure. Where particles overlap one another their common volume
 /// counts for each of them.
 ///
-/// With a kernel the share of a grain is the value of the kernel at the centre of the cell over the sum of these values: see
+/// With a kernel the share of a particle is the value of the kernel at the centre of the cell over the sum of these values: see
 /// SmoothCells. Granular temperature: sum w m |v - v_avg|^2 / (3 sum w m).
 ///
-/// Cells are lo <= x < hi; the last along an axis has x <= hi. Positions and images: see AbsolutePositions and GrainCells;
+/// Cells are lo <= x < hi; the last along an axis has x <= hi. Positions and images: see AbsolutePositions and ParticleCells;
 /// an image is on that side of a face on which the exact image of its position in the box is, which is less than an ulp off.
 /// Sums are those of exact arithmetic, rounded once, of terms that are rounded doubles (of stresses: to 2^-192 of the term of
 /// a particle as heavy and as fast as all in the cell together): the results are the same, bit for bit, for any order of rows,
 /// threads and ranks.
 ///
-/// The ranks have a part of the grains each; share_header has been called. Throws, on all: Error: rows without
+/// The ranks have a part of the particles each; share_header has been called. Throws, on all: Error: rows without
 /// points, overlap without radii, arrays of other sizes; LimitError where the memory that is available does not
 /// suffice; Cancelled. Collective.
 EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest& request,
@@ -140,11 +140,12 @@ EulerAverages average_in_cells(const FrameView& frame, const EulerAverageRequest
 
 /// Checks what is known of the particles of all ranks, and tells what is not. Returns their number. Throws Error: rows without
 /// points, arrays that differ between ranks, no radii where they are needed. Collective.
-std::int64_t check_grains(const FrameView& frame, const GrainSources& sources,
-  const GrainArrays& arrays, bool need_radius, Communicator& ranks, Notices& notices);
+std::int64_t check_particles(const FrameView& frame, const ParticleSources& sources,
+  const ParticleArrayNames& arrays, bool need_radius, Communicator& ranks, Notices& notices);
 
 /// Returns the largest radius of the particles of all ranks; 0 without particles. Throws Error, on all ranks, if there are no
 /// radii. Collective.
-double largest_radius(const FrameView& frame, const GrainArrays& arrays, Communicator& ranks);
+double largest_radius(
+  const FrameView& frame, const ParticleArrayNames& arrays, Communicator& ranks);
 }
 #endif

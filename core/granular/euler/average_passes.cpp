@@ -30,46 +30,46 @@ enum Lane : std::size_t
 };
 }
 
-/// Shares of grains in cells of a block, some at a time.
+/// Shares of particles in cells of a block, some at a time.
 struct AveragePasses::Batch
 {
-  static constexpr std::size_t most = GrainBlock::most_rows;
+  static constexpr std::size_t most = ParticleBlock::most_rows;
 
-  GrainBlock grains;
+  ParticleBlock particles;
   std::array<std::int64_t, most> rows;
-  GrainCells::Shares shares;
+  ParticleCells::Shares shares;
 
-  std::int64_t outside = 0; ///< grains that had no share
+  std::int64_t outside = 0; ///< particles that had no share
   std::size_t size = 0;
-  std::array<std::size_t, most> grain; ///< of grains
-  std::array<std::int64_t, most> cell; ///< of the block
+  std::array<std::size_t, most> particle; ///< of particles
+  std::array<std::int64_t, most> cell;    ///< of the block
   std::array<double, most> share;
   std::array<double, most> volume;
   std::array<SumScale::Terms, most> terms;
 
-  /// All grains, each whole in its cell; the stress needs no volumes.
+  /// All particles, each whole in its cell; the stress needs no volumes.
   void fill_whole(Pass pass) noexcept
   {
-    size = grains.rows;
-    std::iota(grain.begin(), grain.end(), std::size_t{ 0 });
+    size = particles.rows;
+    std::iota(particle.begin(), particle.end(), std::size_t{ 0 });
     share.fill(1);
     for (std::size_t i = 0; pass == Pass::Means && i < size; ++i)
     {
-      volume[i] = sphere_volume(grains.radius[i]);
+      volume[i] = sphere_volume(particles.radius[i]);
     }
   }
 };
 
-AveragePasses::AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
-  const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
-  Progress& progress)
+AveragePasses::AveragePasses(const FrameView& frame, const ParticleSources& sources,
+  std::int64_t rows, const EulerAverageRequest& request, Communicator& ranks,
+  const Executor& executor, Progress& progress)
   : frame_(frame)
   , rows_(rows)
   , request_(request)
   , ranks_(ranks)
   , executor_(executor)
   , progress_(progress)
-  , grains_(frame, sources)
+  , particles_(frame, sources)
   , cells_(request.grid, request.cells, frame.has_box ? &frame.header.box : nullptr)
   , blocks_(request.grid, request.wanted, ranks, executor, progress_)
   , stress_(!request.arrays.stress.empty())
@@ -97,20 +97,21 @@ EulerAverages AveragePasses::run()
 
 void AveragePasses::sum_group(const Group& group)
 {
-  this->add_grains(Pass::Means, group,
+  this->add_particles(Pass::Means, group,
     [this](Batch& batch, const Mean*)
     {
-      const GrainBlock& grains = batch.grains;
+      const ParticleBlock& particles = batch.particles;
       for (std::size_t n = 0; n < batch.size; ++n)
       {
-        const std::size_t i = batch.grain[n];
-        const double* const v = grains.velocities + 3 * i;
-        const double mass = grains.mass[i] * batch.share[n];
+        const std::size_t i = batch.particle[n];
+        const double* const v = particles.velocities + 3 * i;
+        const double mass = particles.mass[i] * batch.share[n];
         batch.terms[n] = { batch.share[n], mass, mass * v[0], mass * v[1], mass * v[2],
-          grains.radius[i] * batch.share[n], batch.volume[n], grains.speed(i, largest_mass_) };
+          particles.radius[i] * batch.share[n], batch.volume[n],
+          particles.speed(i, largest_mass_) };
       }
     });
-  if (blocks_.blocks() == 1) // nobody looked where grains are
+  if (blocks_.blocks() == 1) // nobody looked where particles are
   {
     ranks_.sum({ &outside_, 1 });
     result_.outside = outside_;
@@ -120,21 +121,21 @@ void AveragePasses::sum_group(const Group& group)
   {
     return;
   }
-  this->add_grains(Pass::Stress, group,
+  this->add_particles(Pass::Stress, group,
     [](Batch& batch, const Mean* means)
     {
-      const GrainBlock& grains = batch.grains;
+      const ParticleBlock& particles = batch.particles;
       for (std::size_t n = 0; n < batch.size; ++n)
       {
-        const std::size_t i = batch.grain[n];
+        const std::size_t i = batch.particle[n];
         const auto& [mean, scale] = means[batch.cell[n]];
         const auto terms =
-          fluctuation_terms(grains.mass[i] * batch.share[n], grains.velocities + 3 * i, mean);
+          fluctuation_terms(particles.mass[i] * batch.share[n], particles.velocities + 3 * i, mean);
         std::ranges::copy(terms, batch.terms[n].begin());
         batch.terms[n].back() = 0;
-        for (std::size_t k = 0; grains.stresses && k < 6; ++k)
+        for (std::size_t k = 0; particles.stresses && k < 6; ++k)
         {
-          batch.terms[n][k] += grains.stresses[6 * i + k] * batch.share[n];
+          batch.terms[n][k] += particles.stresses[6 * i + k] * batch.share[n];
         }
         for (double& term : batch.terms[n])
         {
@@ -145,16 +146,16 @@ void AveragePasses::sum_group(const Group& group)
   this->finish_stress(group);
 }
 
-/// The cells of grains that have one each, whose places among those of all blocks begin there. The first pass keeps
+/// The cells of particles that have one each, whose places among those of all blocks begin there. The first pass keeps
 /// what it finds for the second. Whether all have one.
 bool AveragePasses::find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch)
 {
   const auto found = found_.begin() + place;
-  const std::size_t count = batch.grains.rows;
+  const std::size_t count = batch.particles.rows;
   if (pass == Pass::Means)
   {
     const bool all =
-      cells_.finder().find({ batch.grains.positions, 3 * count }, range, batch.cell.data());
+      cells_.finder().find({ batch.particles.positions, 3 * count }, range, batch.cell.data());
     std::transform(batch.cell.begin(), batch.cell.begin() + static_cast<std::ptrdiff_t>(count),
       found, [](std::int64_t cell) { return static_cast<std::int16_t>(cell); });
     return all;
@@ -174,10 +175,10 @@ void AveragePasses::each_batch(
   Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take)
 {
   const CellRange range = blocks_.range(part.block);
-  const GrainBlock& grains = batch.grains;
-  const auto add = [&](std::size_t grain, std::int64_t cell, double share, double volume)
+  const ParticleBlock& particles = batch.particles;
+  const auto add = [&](std::size_t particle, std::int64_t cell, double share, double volume)
   {
-    batch.grain[batch.size] = grain;
+    batch.particle[batch.size] = particle;
     batch.cell[batch.size] = cell;
     batch.share[batch.size] = share;
     batch.volume[batch.size] = volume;
@@ -192,31 +193,31 @@ void AveragePasses::each_batch(
   {
     const std::span<const std::int64_t> rows =
       blocks_.rows().rows(part.block, first, part.last, batch.rows);
-    grains_.load(rows, batch.grains);
+    particles_.load(rows, batch.particles);
     const auto before = static_cast<std::uint64_t>(first - part.first);
     const std::int64_t place = blocks_.rows().start(part.block) + first;
     first += static_cast<std::int64_t>(rows.size());
-    if (!found_.empty() && !grains.usable && this->find_cells(place, range, pass, batch))
+    if (!found_.empty() && !particles.usable && this->find_cells(place, range, pass, batch))
     {
       batch.fill_whole(pass);
     }
     else if (pass == Pass::Stress && kept.complete)
     {
-      for (; next != kept.shares.end() && next->grain - before < grains.rows; ++next)
+      for (; next != kept.shares.end() && next->particle - before < particles.rows; ++next)
       {
-        add(next->grain - before, next->cell, next->share, 0); // volumes are summed up already
+        add(next->particle - before, next->cell, next->share, 0); // volumes are summed up already
       }
     }
     else
     {
-      for (std::size_t i = 0; i < grains.rows; ++i)
+      for (std::size_t i = 0; i < particles.rows; ++i)
       {
-        if (!grains.uses(i))
+        if (!particles.uses(i))
         {
           continue;
         }
         bool inside = false;
-        cells_.each_share(grains.positions + 3 * i, grains.radius[i], range, batch.shares,
+        cells_.each_share(particles.positions + 3 * i, particles.radius[i], range, batch.shares,
           [&](std::int64_t cell, double share, double volume)
           {
             inside = true;
@@ -225,7 +226,7 @@ void AveragePasses::each_batch(
           });
         if (!inside)
         {
-          cells_.each_range(grains.positions + 3 * i, grains.radius[i],
+          cells_.each_range(particles.positions + 3 * i, particles.radius[i],
             [&](const CellRange&) { inside = true; }); // so little that its share is 0
           batch.outside += inside ? 0 : 1;
         }
@@ -236,10 +237,10 @@ void AveragePasses::each_batch(
   }
 }
 
-/// Sums over the grains of all ranks in the cells of a group; make_terms fills the terms of a batch and knows the means
+/// Sums over the particles of all ranks in the cells of a group; make_terms fills the terms of a batch and knows the means
 /// of its block.
 template <class MakeTerms>
-void AveragePasses::add_grains(Pass pass, const Group& group, const MakeTerms& make_terms)
+void AveragePasses::add_particles(Pass pass, const Group& group, const MakeTerms& make_terms)
 {
   const SumScale& scale = pass == Pass::Means ? sums_ : stresses_;
   const std::int64_t cells = blocks_.largest();

@@ -19,7 +19,7 @@ class AveragePasses
 {
 public:
   /// rows: the number of rows of all ranks.
-  AveragePasses(const FrameView& frame, const GrainSources& sources, std::int64_t rows,
+  AveragePasses(const FrameView& frame, const ParticleSources& sources, std::int64_t rows,
     const EulerAverageRequest& request, Communicator& ranks, const Executor& executor,
     Progress& progress);
 
@@ -43,7 +43,7 @@ private:
     struct Share
     {
       double share;
-      std::uint32_t grain; ///< from the first of the part
+      std::uint32_t particle; ///< from the first of the part
       std::int16_t cell;
     };
 
@@ -51,13 +51,13 @@ private:
     std::vector<Share> shares = {};
     bool complete = true;
 
-    void add(std::uint64_t grain, std::int64_t cell, double share)
+    void add(std::uint64_t particle, std::int64_t cell, double share)
     {
-      complete = complete && shares.size() < most && grain <= UINT32_MAX;
+      complete = complete && shares.size() < most && particle <= UINT32_MAX;
       if (complete)
       {
         shares.push_back(
-          { share, static_cast<std::uint32_t>(grain), static_cast<std::int16_t>(cell) });
+          { share, static_cast<std::uint32_t>(particle), static_cast<std::int16_t>(cell) });
       }
     }
   };
@@ -70,7 +70,7 @@ private:
   void each_block(std::size_t chunks, const Take& take);
   void sum_group(const Group& group);
   template <class MakeTerms>
-  void add_grains(Pass pass, const Group& group, const MakeTerms& make_terms);
+  void add_particles(Pass pass, const Group& group, const MakeTerms& make_terms);
   template <class Take>
   void each_batch(Pass pass, const Part& part, Batch& batch, KeptShares& kept, const Take& take);
   bool find_cells(std::int64_t place, const CellRange& range, Pass pass, Batch& batch);
@@ -83,16 +83,16 @@ private:
   Communicator& ranks_;
   const Executor& executor_;
   PartialProgress progress_;
-  GrainValues grains_;
-  GrainCells cells_;
+  ParticleLoader particles_;
+  ParticleCells cells_;
   BlockSums blocks_;
   bool stress_;  ///< there is one on some rank
   bool tensors_; ///< are wanted
 
-  GrainValues::Scan scanned_;
+  ParticleLoader::Scan scanned_;
   double largest_mass_ = 1; ///< or 1, if all are 0
   int mass_top_ = 0;        ///< all masses are below 2^mass_top
-  int speed_top_ = 0;       ///< see GrainBlock::speed
+  int speed_top_ = 0;       ///< see ParticleBlock::speed
   std::vector<std::int16_t>
     found_; ///< cells of the rows of all blocks, where each has one; else empty
   SumScale sums_{ {}, 1 };
@@ -107,7 +107,7 @@ private:
 
   std::vector<Mean> means_;
   std::vector<double> masses_; ///< of these, for temperatures
-  std::int64_t outside_ = 0;   ///< grains without a share in the last pass over this rank's
+  std::int64_t outside_ = 0;   ///< particles without a share in the last pass over this rank's
   EulerAverages result_;
 };
 }

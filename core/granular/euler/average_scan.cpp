@@ -16,14 +16,14 @@ namespace
 {
 using Rows = std::span<const std::int64_t>;
 
-constexpr std::int64_t rows_of_block = GrainBlock::most_rows;
+constexpr std::int64_t rows_of_block = ParticleBlock::most_rows;
 constexpr std::int64_t rows_of_chunk = 65536;
 
 /// Bits below the largest possible term of a stress in a cell in which its terms still count.
 constexpr int stress_bits = 192;
 }
 
-/// Calls take(rows, chunk, worker, grains) for the rows of so many chunks, some at a time; grains: room for them.
+/// Calls take(rows, chunk, worker, particles) for the rows of so many chunks, some at a time; particles: room for them.
 template <class Take>
 void AveragePasses::each_block(std::size_t chunks, const Take& take)
 {
@@ -31,8 +31,8 @@ void AveragePasses::each_block(std::size_t chunks, const Take& take)
     chunks,
     [&](std::size_t chunk, std::size_t worker)
     {
-      GrainBlock grains;
-      std::array<std::int64_t, GrainBlock::most_rows> buffer;
+      ParticleBlock particles;
+      std::array<std::int64_t, ParticleBlock::most_rows> buffer;
       const std::int64_t start = static_cast<std::int64_t>(chunk) * rows_of_chunk;
       const std::int64_t end = std::min(start + rows_of_chunk, frame_.rows);
       for (std::int64_t first = start; first < end; first += rows_of_block)
@@ -40,7 +40,7 @@ void AveragePasses::each_block(std::size_t chunks, const Take& take)
         const std::span<std::int64_t> rows =
           std::span(buffer).first(static_cast<std::size_t>(std::min(rows_of_block, end - first)));
         std::iota(rows.begin(), rows.end(), first);
-        take(rows, chunk, worker, grains);
+        take(rows, chunk, worker, particles);
       }
     },
     progress_);
@@ -49,40 +49,40 @@ void AveragePasses::each_block(std::size_t chunks, const Take& take)
 void AveragePasses::scan()
 {
   const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
-  std::vector<GrainValues::Scan> scans(executor_.workers(chunks));
+  std::vector<ParticleLoader::Scan> scans(executor_.workers(chunks));
   this->each_block(chunks,
-    [&](Rows rows, std::size_t, std::size_t worker, GrainBlock& grains)
-    { grains_.scan(rows, grains, scans[worker]); });
-  for (const GrainValues::Scan& scan : scans)
+    [&](Rows rows, std::size_t, std::size_t worker, ParticleBlock& particles)
+    { particles_.scan(rows, particles, scans[worker]); });
+  for (const ParticleLoader::Scan& scan : scans)
   {
     scanned_.add(scan);
   }
-  grains_.trust(scanned_);
-  for (const GrainValues::Scan& scan : gather(ranks_, std::exchange(scanned_, {})))
+  particles_.trust(scanned_);
+  for (const ParticleLoader::Scan& scan : gather(ranks_, std::exchange(scanned_, {})))
   {
     scanned_.add(scan);
   }
   result_.broken = scanned_.broken;
 }
 
-/// In which blocks grains are; a single one has them all.
+/// In which blocks particles are; a single one has them all.
 void AveragePasses::locate()
 {
   const auto chunks = static_cast<std::size_t>((frame_.rows + rows_of_chunk - 1) / rows_of_chunk);
   std::vector<std::vector<BlockRows::Entry>> entries(blocks_.blocks() > 1 ? chunks : 0);
   std::vector<std::int64_t> counts(executor_.workers(entries.size()));
   this->each_block(entries.size(),
-    [&](Rows rows, std::size_t chunk, std::size_t worker, GrainBlock& grains)
+    [&](Rows rows, std::size_t chunk, std::size_t worker, ParticleBlock& particles)
     {
-      grains_.load(rows, grains);
+      particles_.load(rows, particles);
       const std::int64_t first = rows.front() % rows_of_chunk;
-      for (std::size_t i = 0; i < grains.rows; ++i)
+      for (std::size_t i = 0; i < particles.rows; ++i)
       {
         const auto row = static_cast<std::uint32_t>(first + static_cast<std::int64_t>(i));
-        const bool inside = !grains.uses(i) ||
+        const bool inside = !particles.uses(i) ||
           blocks_.add_entries(row, entries[chunk],
             [&](const auto& visit)
-            { cells_.each_range(grains.positions + 3 * i, grains.radius[i], visit); });
+            { cells_.each_range(particles.positions + 3 * i, particles.radius[i], visit); });
         counts[worker] += inside ? 0 : 1;
       }
     });
@@ -105,7 +105,7 @@ void AveragePasses::plan()
   const SumScale::Range speed = scanned_.speed.range(0);
   const SumScale::Range momentum = { mass.top + speed.top, mass.bottom + speed.bottom };
   largest_mass_ = scanned_.mass.largest() > 0 ? scanned_.mass.largest() : 1;
-  Magnitudes speeds = scanned_.speed; // see GrainBlock::speed
+  Magnitudes speeds = scanned_.speed; // see ParticleBlock::speed
   const double stressed[] = { std::sqrt(scanned_.stress.largest()) / std::sqrt(largest_mass_),
     std::sqrt(scanned_.stress.smallest()) / std::sqrt(largest_mass_) };
   speeds.add(stressed, 2);

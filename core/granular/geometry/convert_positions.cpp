@@ -28,7 +28,7 @@ struct Conversion
 }
 
 /// Returns true if component k of the box vector j is a term of coordinate k at all. One that is 0 by the
-/// shape of the box is none: a grain that was lost along j keeps its coordinate k.
+/// shape of the box is none: a particle that was lost along j keeps its coordinate k.
 [[gnu::always_inline]] inline bool reaches(const Box& box, std::size_t j, std::size_t k) noexcept
 {
   return j == k || box.vectors[j][k].hi != 0;

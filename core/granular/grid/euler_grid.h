@@ -103,7 +103,7 @@ struct EulerGridRequest
   Vector3
     size = {}; ///< edges above 0: as many cells as fit, not smaller but by rounding, at least 1
   double cutoff =
-    0; ///< of all edges, as size, but cut off as in LIGGGHTS; 0, where there are no grains: one cell
+    0; ///< of all edges, as size, but cut off as in LIGGGHTS; 0, where there are no particles: one cell
 };
 
 /// The most cells of a grid, and one more than the most along an axis: VTK counts these with 32 bits.

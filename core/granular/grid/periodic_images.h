@@ -22,7 +22,7 @@ inline Vector3 floors_of(const Twofold3& image) noexcept
 class PeriodicImages
 {
 public:
-  /// box: null, or a general one: there are none but the grains themselves.
+  /// box: null, or a general one: there are none but the particles themselves.
   PeriodicImages(const EulerGrid& grid, const Box* box);
 
   /// Returns true if centres in the box may have images in the grid.
@@ -35,7 +35,7 @@ public:
       this->alone(2, centre[2], radius);
   }
 
-  /// Returns true if the grain has images along that axis.
+  /// Returns true if the particle has images along that axis.
   bool repeats(std::size_t axis) const noexcept { return axes_[axis].repeats; }
 
   /// Calls visit(centre of the image) for each image that may reach into the grid, including the particle itself.
@@ -78,9 +78,9 @@ public:
   /// Returns the largest number of images of a particle up to that radius in one cell.
   std::int64_t most_in_cell(double radius) const noexcept;
 
-  /// Returns true if a place along an axis is that of a grain whose image one period below is in the grid, too: at the upper
+  /// Returns true if a place along an axis is that of a particle whose image one period below is in the grid, too: at the upper
   /// face of a grid that is a period long, or longer. In a tilted box the image may be elsewhere along other axes: a grid with
-  /// the lengths of the box has each grain once all the same.
+  /// the lengths of the box has each particle once all the same.
   bool is_twice(std::size_t axis, double x) const noexcept
   {
     return axes_[axis].wraps && x == grid_.hi[axis];
@@ -92,7 +92,7 @@ private:
     bool repeats = false;
     bool wraps = false; ///< the grid is not shorter than a period
     Twofold length;
-    double lo = 0; ///< between these a grain has no image in the grid but itself
+    double lo = 0; ///< between these a particle has no image in the grid but itself
     double hi = 0;
   };
 

@@ -29,9 +29,9 @@ struct LocalRequest
 /// A decoded frame of local data: a table, and lines if the rows give the ends.
 struct LocalFrame
 {
-  DumpFrame table;        ///< without points
+  DumpFrame table = {};   ///< without points
   bool has_lines = false; ///< false: the rows have only the ids of the ends
-  Lines lines;            ///< of the rows of the table
+  Lines lines = {};       ///< of the rows of the table
   std::int64_t first_row =
     0; ///< of this part in the frame, where lines have rows of their own (Split)
 };

@@ -75,7 +75,7 @@ void find_candidates(
   plan.visit_near(row, limit(plan.request.radii.largest()),
     [&](std::int64_t other, const PeriodicImage& image)
     {
-      if (other > row && other < plan.grains)
+      if (other > row && other < plan.particles)
       {
         const PlacedParticle second = plan.particle(other);
         const Vector3 at = moved(second.point, image, plan.shape);
@@ -163,7 +163,7 @@ GrainBonds make_bonds(const PackingPlan& plan, double factor, Progress& progress
         {
           add_pairs(plan, row, factor, candidates, pairs);
         }
-        else if (row + 1 < plan.grains)
+        else if (row + 1 < plan.particles)
         {
           pairs.push_back({ row, row + 1, {} });
         }

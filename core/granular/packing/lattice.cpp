@@ -38,7 +38,7 @@ Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double 
   : cell_(cell_of(kind))
   , nearest_(distance)
 {
-  const double clear = distance + 2 * box.rounding(); // no rounding brings such grains too near
+  const double clear = distance + 2 * box.rounding(); // no rounding brings such particles too near
   double lacking = this->lay(box, distance, radius, clear);
   if (lacking <= 1)
   {
@@ -50,7 +50,7 @@ Lattice::Lattice(LatticeKind kind, const BoxShape& box, double distance, double 
     this->settle(box, distance, clear);
     return;
   }
-  // cells are sheared, and their grains too near: the least length at which they are not
+  // cells are sheared, and their particles too near: the least length at which they are not
   double low = distance;
   double high = distance;
   while (lacking > 1)
@@ -123,7 +123,7 @@ void Lattice::spread(const BoxShape& box, double length, double radius)
   }
 }
 
-/// Finds out how near grains are where the box holds its cells, and along some axes no larger ones.
+/// Finds out how near particles are where the box holds its cells, and along some axes no larger ones.
 void Lattice::settle(const BoxShape& box, double distance, double clear)
 {
   const double least = this->nearest(box, 2 * clear);
@@ -146,7 +146,7 @@ void Lattice::settle(const BoxShape& box, double distance, double clear)
   nearest_ = least - (clear - distance);
 }
 
-/// Returns true if the coordinates of grains at the distance are doubles, and the first one's image is no nearer to the last one.
+/// Returns true if the coordinates of particles at the distance are doubles, and the first one's image is no nearer to the last one.
 bool Lattice::is_exact(const BoxShape& box, std::size_t axis, double distance) const noexcept
 {
   const double length = box.vectors[axis][axis];
@@ -155,15 +155,15 @@ bool Lattice::is_exact(const BoxShape& box, std::size_t axis, double distance) c
     (!box.periodic[axis] || length - steps == distance);
 }
 
-/// Gives by how much grains are nearer than they may.
+/// Gives by how much particles are nearer than they may.
 double Lattice::lay(const BoxShape& box, double length, double radius, double clear)
 {
   this->lay(box, length, radius);
   return clear / this->nearest(box, 2 * clear);
 }
 
-/// The distance of the nearest two grains of the lattice without end, or one that is enough. Along
-/// no axis is a cell lower than the distance, so that nearer grains are in neighbouring cells.
+/// The distance of the nearest two particles of the lattice without end, or one that is enough. Along
+/// no axis is a cell lower than the distance, so that nearer particles are in neighbouring cells.
 double Lattice::nearest(const BoxShape& box, double enough) const noexcept
 {
   double least = enough * enough;

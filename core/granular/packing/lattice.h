@@ -29,7 +29,7 @@ enum class LatticeKind : std::uint8_t
 /// Whole cells of a lattice along the vectors of a box, in its middle, sheared with the box. Neighbours are
 /// nowhere nearer than the distance asked for, also after their coordinates are rounded: across a periodic axis
 /// cells are stretched, and in a sheared box all are, as much as needed. Only in a box that holds its cells exactly,
-/// neighbours may be nearer by the rounding of coordinates: see nearest. Across other axes grains lie wholly inside.
+/// neighbours may be nearer by the rounding of coordinates: see nearest. Across other axes particles lie wholly inside.
 class Lattice
 {
 public:
@@ -52,7 +52,7 @@ public:
 
   /// Returns the lengths of a box for a number of particles, as much like a cube as whole cells allow.
   static Vector3 lengths_for(LatticeKind kind, const std::array<bool, 3>& periodic, double distance,
-    double radius, std::int64_t grains);
+    double radius, std::int64_t particles);
 
 private:
   CellCounts cells_for(const BoxShape& box, double length, double radius) const noexcept;
@@ -68,7 +68,7 @@ private:
 
   const LatticeCell& cell_;
   CellCounts cells_ = {};
-  Vector3 first_ = {}; ///< scaled coordinate of a grain at 0 of the first cell
+  Vector3 first_ = {}; ///< scaled coordinate of a particle at 0 of the first cell
   Vector3 step_ = {};  ///< from cell to cell
   double nearest_;
   std::array<bool, 3>

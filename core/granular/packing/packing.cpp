@@ -23,7 +23,7 @@ DumpFrame empty_frame(const PackingPlan& plan)
   }
   DumpFrame frame;
   frame.rows = plan.last - plan.first;
-  frame.header.rows = plan.grains;
+  frame.header.rows = plan.particles;
   frame.header.box = plan.box;
   frame.schema = ColumnSchema(columns);
   const auto count = static_cast<std::size_t>(frame.rows);

@@ -21,17 +21,18 @@ enum class Arrangement : std::uint8_t
   Chain ///< one straight row of particles along the first box vector, in the middle of the box
 };
 
-/// The wanted particles. At least one of grains and box must be given.
+/// The wanted particles. At least one of particles and box must be given.
 struct PackingRequest
 {
   Arrangement arrangement = Arrangement::Random;
-  std::int64_t grains = 0;           ///< 0: as many as the box holds
+  std::int64_t particles = 0;        ///< 0: as many as the box holds
   std::optional<Box> box;            ///< none: a box is made for the particles
   Vector3 corner = {};               ///< of a box that is made
   std::string boundary = "ff ff ff"; ///< of the box: see checked_boundary
   RadiusChoice radii;
-  double solid_fraction = 0.2; ///< random grains, where grains or box are not given: volume of
-                               ///< grains by that of the box
+  double solid_fraction =
+    0.2; ///< random particles, where particles or box are not given: volume of
+         ///< particles by that of the box
   double spacing =
     1; ///< all but random: distance of nearest neighbours by the largest diameter, >= 1
   double speed = 0; ///< standard deviation of each component of the velocities, >= 0

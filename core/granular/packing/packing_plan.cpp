@@ -13,7 +13,7 @@ namespace granular
 {
 namespace
 {
-constexpr std::int64_t most_grains = 1'000'000'000'000;
+constexpr std::int64_t most_particles = 1'000'000'000'000;
 
 /// The densest packing of equal spheres has 0.74; what chance can do shows when it is tried.
 constexpr double most_solid = 0.74;
@@ -42,8 +42,8 @@ void expect(bool right, const std::string& what, double got)
 void check_numbers(const PackingRequest& request)
 {
   check(request.radii);
-  expect(request.grains >= 0 && request.grains <= most_grains, "a number of grains from 0 to 10^12",
-    static_cast<double>(request.grains));
+  expect(request.particles >= 0 && request.particles <= most_particles,
+    "a number of grains from 0 to 10^12", static_cast<double>(request.particles));
   expect(request.solid_fraction > 0 && request.solid_fraction <= most_solid,
     "a solid fraction greater than 0 and at most 0.74", request.solid_fraction);
   expect(request.spacing >= 1 && std::isfinite(request.spacing), "a finite spacing of at least 1",
@@ -53,7 +53,7 @@ void check_numbers(const PackingRequest& request)
   expect(request.pieces >= 1, "at least 1 piece", request.pieces);
   expect(request.piece >= 0 && request.piece < request.pieces,
     "a piece from 0 to " + std::to_string(request.pieces - 1), request.piece);
-  if (request.grains == 0 && !request.box)
+  if (request.particles == 0 && !request.box)
   {
     throw LimitError("expected a number of grains or a box, got neither");
   }
@@ -70,19 +70,19 @@ LatticeKind lattice_of(Arrangement arrangement)
                                                  : LatticeKind::FaceCentredCubic;
 }
 
-/// The edge of a cube for random grains. Between walls few of them have less room than the solid fraction
+/// The edge of a cube for random particles. Between walls few of them have less room than the solid fraction
 /// says: then at least the cube of a diameter is left to each.
 double made_edge(const PackingRequest& request, bool walls)
 {
-  const double volume = static_cast<double>(request.grains) * request.radii.mean_volume();
+  const double volume = static_cast<double>(request.particles) * request.radii.mean_volume();
   const double diameter = 2 * request.radii.largest();
-  const double room = walls && request.grains > 1 ? std::cbrt(volume * 6 / std::numbers::pi) : 0;
+  const double room = walls && request.particles > 1 ? std::cbrt(volume * 6 / std::numbers::pi) : 0;
   constexpr double apart =
-    1 + 1e-3; // no grain touches its own image, as near to it as coordinates may be coarse
+    1 + 1e-3; // no particle touches its own image, as near to it as coordinates may be coarse
   return std::max(std::cbrt(volume / request.solid_fraction), (diameter + room) * apart);
 }
 
-/// The box for grains that are so far apart.
+/// The box for particles that are so far apart.
 Box made_box(const PackingRequest& request, const std::string& boundary, double distance)
 {
   const double radius = request.radii.largest();
@@ -96,9 +96,9 @@ Box made_box(const PackingRequest& request, const std::string& boundary, double 
   else
   {
     lengths = request.arrangement == Arrangement::Chain
-      ? Chain::lengths_for(periodic, distance, radius, request.grains)
+      ? Chain::lengths_for(periodic, distance, radius, request.particles)
       : Lattice::lengths_for(
-          lattice_of(request.arrangement), periodic, distance, radius, request.grains);
+          lattice_of(request.arrangement), periodic, distance, radius, request.particles);
   }
   Box box = Box::from_bounds({}, lengths);
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -109,18 +109,18 @@ Box made_box(const PackingRequest& request, const std::string& boundary, double 
   return box;
 }
 
-/// The distance that no two grains are nearer than in a box: see Lattice and Chain.
+/// The distance that no two particles are nearer than in a box: see Lattice and Chain.
 double nearest_in(const BoxShape& box, const PackingRequest& request)
 {
   const double distance = distance_of(request);
   const double radius = request.radii.largest();
   return request.arrangement == Arrangement::Random ? HUGE_VAL
     : request.arrangement == Arrangement::Chain
-    ? Chain(box, distance, radius, request.grains).nearest()
+    ? Chain(box, distance, radius, request.particles).nearest()
     : Lattice(lattice_of(request.arrangement), box, distance, radius).nearest();
 }
 
-/// The box for the grains, with room for the rounding of coordinates where that could make them overlap.
+/// The box for the particles, with room for the rounding of coordinates where that could make them overlap.
 Box made_box(const PackingRequest& request, const std::string& boundary)
 {
   const double distance = distance_of(request);
@@ -169,8 +169,8 @@ std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
 {
   const double mean = request.radii.mean_volume();
   const double room = box.volume / mean;
-  const double count = request.grains > 0 ? static_cast<double>(request.grains)
-                                          : std::floor(request.solid_fraction * room + 1e-9);
+  const double count = request.particles > 0 ? static_cast<double>(request.particles)
+                                             : std::floor(request.solid_fraction * room + 1e-9);
   expect(count >= 1, "a box that holds a grain at the solid fraction asked for", count);
   if (count > static_cast<double>(RandomPacking::most_particles))
   {
@@ -185,13 +185,13 @@ std::int64_t random_count(const PackingRequest& request, const BoxShape& box)
 /// Returns the number of particles on a lattice.
 std::int64_t lattice_count(const PackingRequest& request, const Lattice& lattice)
 {
-  const std::int64_t room = std::min(lattice.capacity(), most_grains);
-  if (request.grains > room)
+  const std::int64_t room = std::min(lattice.capacity(), most_particles);
+  if (request.particles > room)
   {
     throw LimitError("expected at most " + std::to_string(room) +
-      " grains, which the box holds in this lattice, got " + std::to_string(request.grains));
+      " grains, which the box holds in this lattice, got " + std::to_string(request.particles));
   }
-  return request.grains > 0 ? request.grains : room;
+  return request.particles > 0 ? request.particles : room;
 }
 }
 
@@ -267,23 +267,23 @@ PackingPlan::PackingPlan(const PackingRequest& wanted, Progress& progress)
   const double distance = distance_of(request);
   if (request.arrangement == Arrangement::Random)
   {
-    grains = random_count(request, shape);
+    particles = random_count(request, shape);
   }
   else if (request.arrangement == Arrangement::Chain)
   {
-    chain_.emplace(shape, distance, radius, request.grains);
+    chain_.emplace(shape, distance, radius, request.particles);
     nearest_ = chain_->nearest();
-    grains = chain_->particles();
+    particles = chain_->particles();
   }
   else
   {
     lattice_.emplace(lattice_of(request.arrangement), shape, distance, radius);
     nearest_ = lattice_->nearest();
-    grains = lattice_count(request, *lattice_);
+    particles = lattice_count(request, *lattice_);
   }
-  radii_ = Radii(request.radii, grains, request.seed);
-  first = begin_of_part(grains, request.piece, request.pieces);
-  last = begin_of_part(grains, request.piece + 1, request.pieces);
+  radii_ = Radii(request.radii, particles, request.seed);
+  first = begin_of_part(particles, request.piece, request.pieces);
+  last = begin_of_part(particles, request.piece + 1, request.pieces);
   if (request.arrangement == Arrangement::Random)
   {
     random_.emplace(shape, radii_, request.seed, progress);

@@ -127,7 +127,7 @@ public:
   PackingRequest request;
   Box box;
   BoxShape shape;
-  std::int64_t grains = 0;
+  std::int64_t particles = 0;
   std::int64_t first = 0; ///< row of the piece
   std::int64_t last = 0;  ///< the row after the piece
 

@@ -46,7 +46,7 @@ struct FrameView
 {
   FrameHeader header; ///< of the frame; rows are counted when it is written, box counts if has_box
   bool has_box =
-    true; ///< false: the box is made from the bounds of the grains, and local data have none
+    true; ///< false: the box is made from the bounds of the particles, and local data have none
   std::int64_t rows = 0; ///< of this rank
   std::optional<ArrayView>
     points = {}; ///< three numbers a row; needed where there are rows, but of local data

@@ -47,12 +47,11 @@ void pass(Archive& archive, typename Archive::template Passed<OfferedArray>& arr
 /// All that the files of a frame tell before its rows are read.
 struct Offer
 {
-  std::array<std::vector<OfferedArray>, 2> tables; ///< the arrays of each
-  std::vector<std::string> columns; ///< of local data: their meaning, see find_columns
-  std::string error;                ///< why the meaning cannot be known; empty: it is
-  Where where;                      ///< of the error
-  Notices
-    notices; ///< for whoever reads a frame with these columns; they name the one that was asked first
+  std::array<std::vector<OfferedArray>, 2> tables = {}; ///< the arrays of each
+  std::vector<std::string> columns = {}; ///< of local data: their meaning, see find_columns
+  std::string error = {};                ///< why the meaning cannot be known; empty: it is
+  Where where = {};                      ///< of the error
+  Notices notices = {}; ///< for whoever reads a frame of these columns; they name the first asked
 };
 
 template <typename Archive>
@@ -71,9 +70,9 @@ void pass(Archive& archive, typename Archive::template Passed<Offer>& offer)
 /// A frame that was read. The memory of its tables may be given away.
 struct RunFrame
 {
-  LocalFrame rows;                 ///< table 0; has_lines: only of local data
-  LocalFrame bonds;                ///< table 1, where there is one
-  std::vector<std::string> groups; ///< of a restart file
+  LocalFrame rows = {};                 ///< table 0; has_lines: only of local data
+  LocalFrame bonds = {};                ///< table 1, where there is one
+  std::vector<std::string> groups = {}; ///< of a restart file
 };
 }
 #endif

@@ -39,8 +39,8 @@ struct Survey
   std::int64_t kept = 0;
   std::int64_t arrays = 0; ///< a rank without rows and arrays knows nothing
   bool has_box = false;
-  Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL };    ///< of the grains, where there is no box
-  Vector3 hi = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< of the grains
+  Vector3 lo = { HUGE_VAL, HUGE_VAL, HUGE_VAL };    ///< of the particles, where there is no box
+  Vector3 hi = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< of the particles
   double radius = HUGE_VAL;                         ///< the smallest, where numbers may lose digits
 };
 

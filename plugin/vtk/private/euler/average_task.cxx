@@ -68,7 +68,7 @@ granular::EulerFieldSet vtkGranularAverageAlgorithm::AverageTask::ChooseFields()
 
 //------------------------------------------------------------------------------
 granular::WeightOptions vtkGranularAverageAlgorithm::AverageTask::MakeWeights(
-  int weights, granular::KernelBounds bounds, const granular::GrainArrays& arrays)
+  int weights, granular::KernelBounds bounds, const granular::ParticleArrayNames& arrays)
 {
   constexpr granular::CellWeights ways[] = { granular::CellWeights::Centre,
     granular::CellWeights::Overlap, granular::CellWeights::Kernel };

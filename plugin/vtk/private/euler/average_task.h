@@ -12,7 +12,7 @@
 #include "granular/contacts/find_ends.h"
 #include "granular/euler/cells.h"
 #include "granular/euler/euler_file.h"
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_loader.h"
 #include "granular/kernels/smooth_cells.h"
 #include "granular/parallel/executor.h"
 
@@ -99,7 +99,7 @@ protected:
    * Returns the weights of a WeightsType; a KernelWidth of 0 is the largest diameter. Collective.
    */
   granular::WeightOptions MakeWeights(
-    int weights, granular::KernelBounds bounds, const granular::GrainArrays& arrays);
+    int weights, granular::KernelBounds bounds, const granular::ParticleArrayNames& arrays);
 
   /**
    * Adds notices that the reader left out particles, and that a general box has no periodic images.

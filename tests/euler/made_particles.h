@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grains to average, and averages by the plainest means.
-#ifndef granular_tests_euler_made_grains_h
-#define granular_tests_euler_made_grains_h
+#ifndef granular_tests_euler_made_particles_h
+#define granular_tests_euler_made_particles_h
 
 #include "../support/big_sum.h"
 
@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-struct Grain
+struct Particle
 {
   granular::Vector3 x = {};
   granular::Vector3 v = {};
@@ -30,12 +30,12 @@ struct Grain
 
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Arrays of grains as a frame has them.
+/// Arrays of particles as a frame has them.
 class Grains
 {
 public:
-  explicit Grains(std::vector<Grain> grains)
-    : all(std::move(grains))
+  explicit Grains(std::vector<Particle> particles)
+    : all(std::move(particles))
   {
   }
 
@@ -48,8 +48,8 @@ public:
   granular::FrameView frame(
     std::size_t first, std::size_t last, const granular::Box* box = nullptr) const
   {
-    constexpr std::int64_t step = sizeof(Grain) / sizeof(double);
-    const Grain* const grain = all.data() + first;
+    constexpr std::int64_t step = sizeof(Particle) / sizeof(double);
+    const Particle* const particle = all.data() + first;
     const auto view = [&](const char* name, const double* values, int size)
     {
       granular::ArrayView array =
@@ -61,13 +61,13 @@ public:
     frame.rows = static_cast<std::int64_t>(last - first);
     frame.has_box = box != nullptr;
     frame.header.box = box ? *box : granular::Box();
-    frame.points = view("points", grain->x.data(), 3);
-    frame.arrays = { view("v", grain->v.data(), 3), view("radius", &grain->radius, 1),
-      view("mass", &grain->mass, 1), view("c_stress", grain->stress.data(), 6) };
+    frame.points = view("points", particle->x.data(), 3);
+    frame.arrays = { view("v", particle->v.data(), 3), view("radius", &particle->radius, 1),
+      view("mass", &particle->mass, 1), view("c_stress", particle->stress.data(), 6) };
     return frame;
   }
 
-  std::vector<Grain> all;
+  std::vector<Particle> all;
 };
 
 inline granular::Box periodic_box(
@@ -79,28 +79,28 @@ inline granular::Box periodic_box(
 }
 
 /// Grains all over a box, and somewhat beyond it.
-inline std::vector<Grain> random_grains(std::size_t count, const granular::Vector3& lo,
+inline std::vector<Particle> random_particles(std::size_t count, const granular::Vector3& lo,
   const granular::Vector3& hi, double radius, unsigned seed, double beyond = 0)
 {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Grain> grains(count);
-  for (Grain& grain : grains)
+  std::vector<Particle> particles(count);
+  for (Particle& particle : particles)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
       const double edge = hi[k] - lo[k];
-      grain.x[k] = lo[k] + edge * ((1 + 2 * beyond) * unit(random) - beyond);
-      grain.v[k] = unit(random) - 0.5;
+      particle.x[k] = lo[k] + edge * ((1 + 2 * beyond) * unit(random) - beyond);
+      particle.v[k] = unit(random) - 0.5;
     }
-    grain.radius = radius * (0.5 + unit(random) / 2);
-    grain.mass = 1e-3 * unit(random);
-    for (double& value : grain.stress)
+    particle.radius = radius * (0.5 + unit(random) / 2);
+    particle.mass = 1e-3 * unit(random);
+    for (double& value : particle.stress)
     {
       value = 1e-4 * (unit(random) - 0.7);
     }
   }
-  return grains;
+  return particles;
 }
 
 inline granular::EulerAverageRequest request_for(
@@ -124,13 +124,13 @@ inline granular::EulerAverages average(const granular::FrameView& frame,
     frame, request, alone, granular::Executor(threads), notices ? *notices : own, progress);
 }
 
-/// The share of a grain in a cell, and the volume there.
+/// The share of a particle in a cell, and the volume there.
 using Share = std::pair<double, double>;
 
-/// Every grain against every cell, with exact sums. share(grain, lo, hi of the cell, whether it is the last of each axis).
+/// Every particle against every cell, with exact sums. share(particle, lo, hi of the cell, whether it is the last of each axis).
 template <class ShareOf>
 granular::EulerCells average_one_by_one(
-  const std::vector<Grain>& grains, const granular::EulerGrid& grid, const ShareOf& share_of)
+  const std::vector<Particle>& particles, const granular::EulerGrid& grid, const ShareOf& share_of)
 {
   granular::EulerCells cells;
   cells.resize(grid.size());
@@ -155,12 +155,12 @@ granular::EulerCells average_one_by_one(
           cells.centres[3 * cell + a] = grid.centre(a, at[a]);
         }
         std::array<BigSum, 7> sums; // share, mass, momentum, radius, volume
-        for (const Grain& grain : grains)
+        for (const Particle& particle : particles)
         {
-          const auto [share, volume] = share_of(grain, lo, hi);
-          const double mass = grain.mass * share;
-          const double terms[] = { share, mass, mass * grain.v[0], mass * grain.v[1],
-            mass * grain.v[2], grain.radius * share, volume };
+          const auto [share, volume] = share_of(particle, lo, hi);
+          const double mass = particle.mass * share;
+          const double terms[] = { share, mass, mass * particle.v[0], mass * particle.v[1],
+            mass * particle.v[2], particle.radius * share, volume };
           for (std::size_t n = 0; share > 0 && n < sums.size(); ++n)
           {
             sums[n].add(terms[n]);
@@ -177,9 +177,9 @@ granular::EulerCells average_one_by_one(
         cells.volume_fraction[cell] = sums[6].value() / size;
         std::array<BigSum, 6> stress;
         constexpr int axes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 0, 2 }, { 1, 2 } };
-        for (const Grain& grain : grains)
+        for (const Particle& particle : particles)
         {
-          const double share = share_of(grain, lo, hi).first;
+          const double share = share_of(particle, lo, hi).first;
           for (std::size_t n = 0; share > 0 && n < 6; ++n)
           {
             const auto a = static_cast<std::size_t>(axes[n][0]);
@@ -187,10 +187,11 @@ granular::EulerCells average_one_by_one(
             // what rounding of the mean may make is no motion
             const auto apart = [&](std::size_t along)
             {
-              const double difference = grain.v[along] - mean[along];
+              const double difference = particle.v[along] - mean[along];
               return std::abs(difference) > 0x1p-49 * std::abs(mean[along]) ? difference : 0;
             };
-            stress[n].add(-(grain.mass * share) * apart(a) * apart(b) + grain.stress[n] * share);
+            stress[n].add(
+              -(particle.mass * share) * apart(a) * apart(b) + particle.stress[n] * share);
           }
         }
         for (std::size_t n = 0; n < 3; ++n)
@@ -207,26 +208,26 @@ granular::EulerCells average_one_by_one(
 }
 
 /// lo <= x < hi; at the upper end of the grid x <= hi.
-inline bool is_inside(const Grain& grain, const granular::EulerGrid& grid,
+inline bool is_inside(const Particle& particle, const granular::EulerGrid& grid,
   const granular::Vector3& lo, const granular::Vector3& hi)
 {
   bool inside = true;
   for (std::size_t a = 0; a < 3; ++a)
   {
-    const bool below = grain.x[a] < hi[a] || (hi[a] == grid.hi[a] && grain.x[a] == hi[a]);
-    inside = inside && grain.x[a] >= lo[a] && below;
+    const bool below = particle.x[a] < hi[a] || (hi[a] == grid.hi[a] && particle.x[a] == hi[a]);
+    inside = inside && particle.x[a] >= lo[a] && below;
   }
   return inside;
 }
 
 inline granular::EulerCells average_by_centre(
-  const std::vector<Grain>& grains, const granular::EulerGrid& grid)
+  const std::vector<Particle>& particles, const granular::EulerGrid& grid)
 {
-  return average_one_by_one(grains, grid,
-    [&](const Grain& grain, const granular::Vector3& lo, const granular::Vector3& hi)
+  return average_one_by_one(particles, grid,
+    [&](const Particle& particle, const granular::Vector3& lo, const granular::Vector3& hi)
     {
-      return is_inside(grain, grid, lo, hi) ? Share(1, granular::sphere_volume(grain.radius))
-                                            : Share(0, 0);
+      return is_inside(particle, grid, lo, hi) ? Share(1, granular::sphere_volume(particle.radius))
+                                               : Share(0, 0);
     });
 }
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_grain_values_h
-#define granular_euler_grain_values_h
+#ifndef granular_euler_particle_loader_h
+#define granular_euler_particle_loader_h
 
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/particles/absolute_positions.h"
@@ -20,7 +20,7 @@
 namespace granular
 {
 /// The names of the averaged arrays; empty: none. Names are those of arrays (`radius`) or of columns of dumps.
-struct GrainArrays
+struct ParticleArrayNames
 {
   std::string velocity = "v";    ///< three components
   std::string radius = "radius"; ///< or a diameter under that name
@@ -30,7 +30,7 @@ struct GrainArrays
 };
 
 /// The values of a frame. Ranks may have different rows, but not different arrays.
-struct GrainSources
+struct ParticleSources
 {
   std::array<std::optional<ValueSource>, 3> velocity;
   std::optional<ValueSource> radius;
@@ -40,7 +40,7 @@ struct GrainSources
 };
 
 /// Throws Error if an array has a wrong number of components, or texts, and if a named stress array is missing.
-GrainSources find_grain_sources(const FrameView& frame, const GrainArrays& names);
+ParticleSources find_particle_sources(const FrameView& frame, const ParticleArrayNames& names);
 
 /// Magnitudes of nonzero numbers, as their bits, which are in the order of the numbers.
 class Magnitudes
@@ -78,7 +78,7 @@ private:
 };
 
 /// Values of some particles.
-struct GrainBlock
+struct ParticleBlock
 {
   static constexpr std::size_t most_rows = 256;
 
@@ -115,7 +115,7 @@ struct GrainBlock
 };
 
 /// Loads particles of a frame.
-class GrainValues
+class ParticleLoader
 {
 public:
   /// The known magnitudes of the particles' numbers.
@@ -132,26 +132,26 @@ public:
   };
 
   /// frame and sources must stay.
-  GrainValues(const FrameView& frame, const GrainSources& sources);
+  ParticleLoader(const FrameView& frame, const ParticleSources& sources);
 
   bool has_stress() const noexcept { return sources_.stress[0].has_value(); }
 
   /// Loads rows in increasing order, at most most_rows. Not usable are ghost duplicates, particles with a number that is not
   /// finite or too large to add (2^290), and those with a radius or mass below 0. May be called from any thread.
-  void load(std::span<const std::int64_t> rows, GrainBlock& block) const;
+  void load(std::span<const std::int64_t> rows, ParticleBlock& block) const;
 
   /// Loads rows and includes the numbers of usable particles in the known magnitudes.
-  void scan(std::span<const std::int64_t> rows, GrainBlock& block, Scan& scan) const;
+  void scan(std::span<const std::int64_t> rows, ParticleBlock& block, Scan& scan) const;
 
-  /// From now on load need not look at what the scan of all grains has found.
+  /// From now on load need not look at what the scan of all particles has found.
   void trust(const Scan& scan) noexcept;
 
 private:
-  void load_values(std::span<const std::int64_t> rows, GrainBlock& block) const;
-  void find_usable(std::span<const std::int64_t> rows, GrainBlock& block) const;
+  void load_values(std::span<const std::int64_t> rows, ParticleBlock& block) const;
+  void find_usable(std::span<const std::int64_t> rows, ParticleBlock& block) const;
 
   const FrameView& frame_;
-  const GrainSources& sources_;
+  const ParticleSources& sources_;
   AbsolutePositions positions_;
   bool all_usable_ = false;
   bool none_moved_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_euler_grain_cells_h
-#define granular_euler_grain_cells_h
+#ifndef granular_euler_particle_cells_h
+#define granular_euler_particle_cells_h
 
 #include "granular/geometry/box.h"
 #include "granular/grid/cell_finder.h"
@@ -19,13 +19,13 @@
 namespace granular
 {
 /// Finds the cells of particles and of their periodic images.
-class GrainCells
+class ParticleCells
 {
 public:
-  /// box: of which grains have images along its periodic axes, wherever the grid reaches; null, or a general one: none have.
-  GrainCells(const EulerGrid& grid, const WeightOptions& options, const Box* box);
-  GrainCells(const GrainCells&) = delete;
-  GrainCells& operator=(const GrainCells&) = delete;
+  /// box: of which particles have images along its periodic axes, wherever the grid reaches; null, or a general one: none have.
+  ParticleCells(const EulerGrid& grid, const WeightOptions& options, const Box* box);
+  ParticleCells(const ParticleCells&) = delete;
+  ParticleCells& operator=(const ParticleCells&) = delete;
 
   /// Returns true if each particle has at most one cell, that of its centre: see CellFinder.
   bool is_direct() const noexcept;
@@ -114,8 +114,8 @@ public:
   /// largest_volume: of all particles. Call it before each_share if weights are Overlap.
   void set_largest_volume(double largest_volume) noexcept;
 
-  /// Shares are multiples of 2^quantum: with Overlap 2^-64 of a grain or of the smallest cell, whatever is less, with a kernel
-  /// of a grain; 0 for Centre.
+  /// Shares are multiples of 2^quantum: with Overlap 2^-64 of a particle or of the smallest cell, whatever is less, with a kernel
+  /// of a particle; 0 for Centre.
   int quantum() const noexcept { return quantum_; }
 
 private:

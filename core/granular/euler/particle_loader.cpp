@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/grain_values.h"
+#include "granular/euler/particle_loader.h"
 
 #include "granular/common/error.h"
 #include "granular/grid/sphere_box.h"
@@ -60,7 +60,7 @@ std::array<std::optional<ValueSource>, size> find_components(
   return sources;
 }
 
-/// The values of all components, one grain after the other: where they are, if they lie so there, or in the buffer.
+/// The values of all components, one particle after the other: where they are, if they lie so there, or in the buffer.
 template <std::size_t size>
 const double* load(const std::array<std::optional<ValueSource>, size>& sources, double missing,
   std::span<const std::int64_t> rows, double* buffer)
@@ -98,9 +98,9 @@ bool has_negative(const double* values, std::size_t count) noexcept
 }
 }
 
-GrainSources find_grain_sources(const FrameView& frame, const GrainArrays& names)
+ParticleSources find_particle_sources(const FrameView& frame, const ParticleArrayNames& names)
 {
-  GrainSources sources;
+  ParticleSources sources;
   sources.velocity = find_components<3>(frame, names.velocity);
   sources.radius = find_number(frame, names.radius);
   sources.mass = find_number(frame, names.mass);
@@ -118,14 +118,14 @@ GrainSources find_grain_sources(const FrameView& frame, const GrainArrays& names
   return sources;
 }
 
-GrainValues::GrainValues(const FrameView& frame, const GrainSources& sources)
+ParticleLoader::ParticleLoader(const FrameView& frame, const ParticleSources& sources)
   : frame_(frame)
   , sources_(sources)
   , positions_(frame, true)
 {
 }
 
-void GrainValues::load(std::span<const std::int64_t> rows, GrainBlock& block) const
+void ParticleLoader::load(std::span<const std::int64_t> rows, ParticleBlock& block) const
 {
   this->load_values(rows, block);
   block.usable = nullptr;
@@ -135,7 +135,8 @@ void GrainValues::load(std::span<const std::int64_t> rows, GrainBlock& block) co
   }
 }
 
-void GrainValues::scan(std::span<const std::int64_t> rows, GrainBlock& block, Scan& scan) const
+void ParticleLoader::scan(
+  std::span<const std::int64_t> rows, ParticleBlock& block, Scan& scan) const
 {
   this->load_values(rows, block);
   block.usable = nullptr;
@@ -174,13 +175,13 @@ void GrainValues::scan(std::span<const std::int64_t> rows, GrainBlock& block, Sc
   scan.add(own);
 }
 
-void GrainValues::trust(const Scan& scan) noexcept
+void ParticleLoader::trust(const Scan& scan) noexcept
 {
   all_usable_ = scan.broken == 0 && !frame_.ghosts;
   none_moved_ = scan.moved == 0;
 }
 
-void GrainValues::load_values(std::span<const std::int64_t> rows, GrainBlock& block) const
+void ParticleLoader::load_values(std::span<const std::int64_t> rows, ParticleBlock& block) const
 {
   using One = std::array<std::optional<ValueSource>, 1>;
   block.rows = rows.size();
@@ -214,7 +215,7 @@ void GrainValues::load_values(std::span<const std::int64_t> rows, GrainBlock& bl
     : nullptr;
 }
 
-void GrainValues::find_usable(std::span<const std::int64_t> rows, GrainBlock& block) const
+void ParticleLoader::find_usable(std::span<const std::int64_t> rows, ParticleBlock& block) const
 {
   const auto fits = [](const double* values, std::size_t count, double least)
   {
@@ -233,7 +234,7 @@ void GrainValues::find_usable(std::span<const std::int64_t> rows, GrainBlock& bl
   block.usable = block.usable_buffer.data();
 }
 
-void GrainValues::Scan::add(const Scan& other) noexcept
+void ParticleLoader::Scan::add(const Scan& other) noexcept
 {
   mass.add(other.mass);
   speed.add(other.speed);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/euler/grain_cells.h"
+#include "granular/euler/particle_cells.h"
 
 #include <cmath>
 
 namespace granular
 {
-GrainCells::GrainCells(const EulerGrid& grid, const WeightOptions& options, const Box* box)
+ParticleCells::ParticleCells(const EulerGrid& grid, const WeightOptions& options, const Box* box)
   : grid_(grid)
   , weights_(options.weights)
   , spheres_(grid)
@@ -19,17 +19,17 @@ GrainCells::GrainCells(const EulerGrid& grid, const WeightOptions& options, cons
   }
 }
 
-bool GrainCells::is_direct() const noexcept
+bool ParticleCells::is_direct() const noexcept
 {
   return weights_ == CellWeights::Centre && !images_.of_centres();
 }
 
-Vector3 GrainCells::reach(double radius) const noexcept
+Vector3 ParticleCells::reach(double radius) const noexcept
 {
   return smooth_ ? smooth_->reach({}) : Vector3{ radius, radius, radius };
 }
 
-void GrainCells::set_largest_volume(double largest_volume) noexcept
+void ParticleCells::set_largest_volume(double largest_volume) noexcept
 {
   constexpr int bits = 64;
   quantum_ = weights_ == CellWeights::Kernel ? -bits : 0;
@@ -46,7 +46,7 @@ void GrainCells::set_largest_volume(double largest_volume) noexcept
   share_shift_ = std::ldexp(1.5, 52 + quantum_);
 }
 
-std::int64_t GrainCells::check(double radius) const
+std::int64_t ParticleCells::check(double radius) const
 {
   if (smooth_)
   {
@@ -57,7 +57,7 @@ std::int64_t GrainCells::check(double radius) const
   return images_.most_in_cell(reach);
 }
 
-std::array<std::int64_t, 3> GrainCells::cell_of(const Twofold3& image) const noexcept
+std::array<std::int64_t, 3> ParticleCells::cell_of(const Twofold3& image) const noexcept
 {
   std::array<std::int64_t, 3> cell;
   for (std::size_t axis = 0; axis < 3; ++axis)
