@@ -21,8 +21,10 @@ Offer offer_data(const RunPlace& place, Progress& progress)
   const auto layout = find_data_layout(piece.file, *source, progress);
   const DataColumns columns =
     find_data_columns(*layout, place.options.atom_style, piece.file.path, notices);
-  return { .tables = { arrays_of(make_particle_schema(columns), known_columns()),
-             arrays_of(make_data_bond_schema(), local_known_columns()) } };
+  Offer offer;
+  offer.tables[0] = arrays_of(make_particle_schema(columns), known_columns());
+  offer.tables[1] = arrays_of(make_data_bond_schema(), local_known_columns());
+  return offer;
 }
 
 RunFrame read_data_frame(const RunPlace& place, const Request& request, const Offer&,

@@ -11,16 +11,19 @@ namespace
 {
 Offer offer_dump(const RunPlace& place, Progress&)
 {
-  const ColumnSchema& schema = place.index.first_piece(place.frame).entry.kind->schema;
-  return { .tables = { arrays_of(schema, known_columns()) } };
+  Offer offer;
+  offer.tables[0] =
+    arrays_of(place.index.first_piece(place.frame).entry.kind->schema, known_columns());
+  return offer;
 }
 
 RunFrame read_dump_frame(const RunPlace& place, const Request& request, const Offer&,
   Communicator& ranks, Notices& notices, Progress& progress)
 {
-  const std::vector<FramePiece> pieces = place.index.pieces(place.frame);
-  return { .rows = {
-             .table = read_dump(pieces, dump_request(request), ranks, notices, progress) } };
+  RunFrame frame;
+  frame.rows.table =
+    read_dump(place.index.pieces(place.frame), dump_request(request), ranks, notices, progress);
+  return frame;
 }
 }
 

@@ -77,9 +77,11 @@ RunFrame read_local_frame(const RunPlace& place, const Request& request, const O
 {
   const auto wanted = [&request](std::string_view name)
   { return is_wanted(request.wanted, name, !is_end_array(name)); };
-  return { .rows = read_local(place.index.pieces(place.frame),
-             { offer.columns, wanted, line_request(request), request.piece, request.pieces }, ranks,
-             notices, progress) };
+  RunFrame frame;
+  frame.rows = read_local(place.index.pieces(place.frame),
+    { offer.columns, wanted, line_request(request), request.piece, request.pieces }, ranks, notices,
+    progress);
+  return frame;
 }
 }
 
