@@ -26,15 +26,17 @@ struct granular_names
 
 namespace
 {
-/// Writes the frame that view_of(writer) returns. Whatever fails, the file would lack a frame that the program wanted in it.
-template <class ViewOf>
-granular_status write_frame(granular_writer* writer, const ViewOf& view_of)
+/// Writes the view of a frame that the caller gives. Whatever fails, the file would lack a frame that the program wanted in it.
+template <class Given, class ViewOf>
+granular_status write_frame(
+  granular_writer* writer, const Given* given, const char* name, const ViewOf& view_of)
 {
   return guarded(
     [&]
     {
+      const bool failed = writer != nullptr && std::exchange(writer->failed, true);
+      needed(given, name);
       granular_writer& to = needed(writer, "writer");
-      const bool failed = std::exchange(to.failed, true);
       const WriteView frame = view_of();
       granular::Notices notices;
       ++to.frames;
@@ -96,18 +98,16 @@ extern "C"
 
   granular_status granular_write(granular_writer* writer, const granular_content* content)
   {
-    return write_frame(writer,
-      [&] {
-        return WriteView(taken(&needed(content, "content"), granular_content_init), writer->kind);
-      });
+    return write_frame(writer, content, "content",
+      [&] { return WriteView(taken(content, granular_content_init), writer->kind); });
   }
 
   granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame)
   {
-    return write_frame(writer,
+    return write_frame(writer, frame, "frame",
       [&]
       {
-        if (writer->kind != needed(frame, "frame").kind)
+        if (writer->kind != frame->kind)
         {
           constexpr std::array<const char*, 4> names = { "particles", "lines", "cells",
             "subdomains" };
