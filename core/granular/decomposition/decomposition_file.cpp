@@ -20,11 +20,6 @@ namespace
 /// Line 2 of what LIGGGHTS-PUBLIC and PFM write.
 constexpr std::string_view liggghts_title = "LIGGGHTS mesh/gran/VTK export";
 
-std::string read_head(const ByteSource& source)
-{
-  return read_up_to(source, vtu_head_bytes);
-}
-
 std::string read_all(const ByteSource& source)
 {
   return read_up_to(source, std::numeric_limits<std::int64_t>::max());
@@ -163,7 +158,7 @@ void index_legacy(const ByteSource& source, FileIndex& index, Progress& progress
 void index_decomposition(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
-  if (look_at(read_head(source)).unstructured)
+  if (look_at(read_up_to(source, vtu_head_bytes)).unstructured)
   {
     index_vtu(source, index);
   }
@@ -265,7 +260,7 @@ bool is_decomposition_file(const std::string& path) noexcept
   return looks_so(path,
     [](const ByteSource& source)
     {
-      const VtuHead head = look_at(read_head(source));
+      const VtuHead head = look_at(read_up_to(source, vtu_head_bytes));
       return head.unstructured ? is_decomposition_vtu(source, head) : is_legacy(source);
     });
 }

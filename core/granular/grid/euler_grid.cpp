@@ -15,12 +15,6 @@ namespace
 {
 constexpr std::array<const char*, 3> axis_names = { "x", "y", "z" };
 
-std::string to_text(const Vector3& values)
-{
-  return granular::to_text(values[0]) + " " + granular::to_text(values[1]) + " " +
-    granular::to_text(values[2]);
-}
-
 void check_extent(const Vector3& lo, const Vector3& hi)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -28,8 +22,7 @@ void check_extent(const Vector3& lo, const Vector3& hi)
     if (!(lo[axis] < hi[axis]) || !std::isfinite(hi[axis] - lo[axis]))
     {
       throw Error(std::string("expected finite bounds of cells, the lower below the upper, got ") +
-        granular::to_text(lo[axis]) + " and " + granular::to_text(hi[axis]) + " along " +
-        axis_names[axis]);
+        to_text(lo[axis]) + " and " + to_text(hi[axis]) + " along " + axis_names[axis]);
     }
   }
 }
@@ -40,8 +33,8 @@ std::int64_t count_cells(double length, double edge, double rounding)
   const double count = std::floor(length / edge * (1 + rounding));
   if (!(count < static_cast<double>(most_cells_of_axis)))
   {
-    throw LimitError("expected less than 2^31 cells along an axis, got edges of " +
-      granular::to_text(edge) + " in a box of " + granular::to_text(length));
+    throw LimitError("expected less than 2^31 cells along an axis, got edges of " + to_text(edge) +
+      " in a box of " + to_text(length));
   }
   return std::max(std::int64_t{ 1 }, static_cast<std::int64_t>(count));
 }
@@ -73,7 +66,8 @@ std::array<std::int64_t, 3> counts_of(const EulerGridRequest& request)
   {
     if (!(size[axis] > 0) || !std::isfinite(size[axis]))
     {
-      throw Error("expected edges of cells above 0, got " + to_text(size));
+      throw Error("expected edges of cells above 0, got " + to_text(size[0]) + " " +
+        to_text(size[1]) + " " + to_text(size[2]));
     }
     counts[axis] = count_cells(request.hi[axis] - request.lo[axis], size[axis], cutoff ? 0 : 1e-12);
   }
@@ -144,9 +138,8 @@ EulerGrid make_euler_grid(const EulerGridRequest& request)
     if (!have_thickness(grid, axis))
     {
       throw Error("expected cells with a thickness, got " + std::to_string(grid.counts[axis]) +
-        " between " + granular::to_text(grid.lo[axis]) + " and " +
-        granular::to_text(grid.hi[axis]) + " along " + axis_names[axis] +
-        ", of which some have none");
+        " between " + to_text(grid.lo[axis]) + " and " + to_text(grid.hi[axis]) + " along " +
+        axis_names[axis] + ", of which some have none");
     }
   }
   return grid;

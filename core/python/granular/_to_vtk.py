@@ -40,7 +40,5 @@ def to_vtk(frame: Any) -> Any:
     for name in frame:
         to.AddArray(array(name, frame[name]))
     for name, value in (("timestep", numpy.array([frame.step])), ("time", numpy.array([frame.time]))):
-        field = numpy_to_vtk(value, deep=True)
-        field.SetName(name)
-        data.GetFieldData().AddArray(field)
+        data.GetFieldData().AddArray(array(name, value))
     return data

@@ -68,13 +68,11 @@ def open_run(arguments: argparse.Namespace) -> Any:
 @contextlib.contextmanager
 def notices() -> Iterator[list[str]]:
     """Collects the different things that are said about files, instead of printing them."""
-    found: dict[str, None] = {}
     said: list[str] = []
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
-        warnings.showwarning = lambda message, *_: found.setdefault(str(message))  # type: ignore[assignment]
         yield said
-    said += found
+    said += dict.fromkeys(str(each.message) for each in found)
 
 
 def chosen(run: Any, text: str | None) -> Any:

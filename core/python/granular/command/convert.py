@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from typing import Any, Callable, Iterable
+from typing import Any, Iterable
 
 from .._inline import put_inline
 from .._library import shown
@@ -138,18 +138,8 @@ def _write_vtk(frame: Any, path: str, ending: str) -> None:
     put_inline(path)
 
 
-_FRAME_WRITERS: dict[str, Callable[[Any, str, Any], None]] = {
-    ".npz": lambda frame, path, columns: _to_stream(_write_npz, frame, path, columns),
-    ".csv": lambda frame, path, columns: _to_stream(_write_csv, frame, path, columns),
-    ".vtp": lambda frame, path, columns: _write_vtk(frame, path, ".vtp"),
-    ".vtu": lambda frame, path, columns: _write_vtk(frame, path, ".vtu"),
-    ".vtkhdf": lambda frame, path, columns: _write_vtk(frame, path, ".vtkhdf"),
-}
-
-
-def _to_stream(write: Callable[[Any, Any, Any], None], frame: Any, path: str, columns: list[str] | None) -> None:
-    with open(path, "wb") as stream:
-        write(frame, stream, columns)
+_STREAM_WRITERS = {".npz": _write_npz, ".csv": _write_csv}
+_ONE_FRAME_A_FILE = (*_STREAM_WRITERS, ".vtp", ".vtu", ".vtkhdf")
 
 
 def _write_frames(frames: Iterable[Any], paths: list[str], columns: list[str] | None, out: str, ending: str, bar: Bar, durable: bool | None) -> None:
@@ -163,7 +153,11 @@ def _write_frames(frames: Iterable[Any], paths: list[str], columns: list[str] | 
     for i, (frame, path) in enumerate(zip(frames, paths)):
         frame.read(bar.within(i, count))
         with whole_file(path, durable) as temporary:
-            _FRAME_WRITERS[ending](frame, temporary, columns)
+            if ending in _STREAM_WRITERS:
+                with open(temporary, "wb") as stream:
+                    _STREAM_WRITERS[ending](frame, stream, columns)
+            else:
+                _write_vtk(frame, temporary, ending)
 
 
 def run(arguments: argparse.Namespace) -> None:
@@ -180,7 +174,7 @@ def run(arguments: argparse.Namespace) -> None:
                  "coordinates": arguments.coordinates or "absolute", "threads": arguments.threads}
         durable = {"auto": None, "on": True, "off": False}[arguments.durable]
         words = arguments.columns.replace(",", " ").split()
-        if ending in _FRAME_WRITERS:
+        if ending in _ONE_FRAME_A_FILE:
             columns = arrays_of(numbers[0], words)[1] if words and len(numbers) else None
             frames = (opened._part(number, columns=words or None, **asked) for number in numbers._numbers())
             folder, name = os.path.split(arguments.out)
