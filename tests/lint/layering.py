@@ -76,8 +76,8 @@ ROOMS = {room: words.split() for room, words in (
     ("restart", "common numbers bytes memory geometry parallel frames particles local"),
     ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                   "dump/read local"),
-    ("runs", "common columns memory parallel frames particles dump/formats dump/read local restart data_file "
-             "euler decomposition bytes geometry"),
+    ("runs", "common columns bytes memory geometry parallel frames particles dump/formats dump/read decomposition euler local "
+             "restart data_file"),
     ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),
     ("contacts", "common memory geometry parallel frames particles sorting grid kernels euler local"),
     ("mpi", "common bytes parallel"),
