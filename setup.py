@@ -31,9 +31,9 @@ class BuildPackage(build_py):
         with tempfile.TemporaryDirectory() as prefix:
             for component in ("python", "c"):
                 subprocess.run(["cmake", "--install", build, "--prefix", prefix, "--component", component, "--strip"], check=True)
-            (modules,) = glob.glob(os.path.join(prefix, "**", "granular", "__init__.py"), recursive=True)
+            (modules,) = glob.glob(os.path.join(prefix, "**", "vtkgranular", "__init__.py"), recursive=True)
             (library,) = glob.glob(os.path.join(prefix, "**", "libgranular.so." + version().split(".")[0]), recursive=True)
-            package = os.path.join(self.build_lib, "granular")
+            package = os.path.join(self.build_lib, "vtkgranular")
             self.copy_tree(os.path.dirname(modules), package)
             self.copy_file(os.path.realpath(library), os.path.join(package, os.path.basename(library)))
 
@@ -58,5 +58,5 @@ def version():
         return re.search(r"VERSION (\d+\.\d+\.\d+)", lists.read().split("project(Granular")[1]).group(1)
 
 
-setup(version=version(), packages=["granular"], package_dir={"granular": "core/python/granular"}, distclass=WithLibrary,
+setup(version=version(), packages=["vtkgranular"], package_dir={"vtkgranular": "core/python/vtkgranular"}, distclass=WithLibrary,
       cmdclass={"build_py": BuildPackage, "bdist_wheel": AnyPython})

@@ -4,10 +4,10 @@
 #
 #   c                libgranular0               the C library
 #   bonds            libgranular-bonds0         bonded particles for simulation codes
-#   python           python3-granular           the Python package, which needs numpy alone
+#   python           python3-vtkgranular           the Python package, which needs numpy alone
 #   command          granular                   the command
 #   plugin           granular-paraview          the ParaView plugin, loaded by ParaView's programs when they start
-#   paraview_python  python3-granular-paraview  the compiled classes of the Python package
+#   paraview_python  python3-vtkgranular-paraview  the compiled classes of the Python package
 #   dev              libgranular-dev            headers of C and C++, and the core, for find_package(Granular)
 if(NOT GRANULAR_PARAVIEW OR NOT GRANULAR_BUILD_PLUGIN OR NOT GRANULAR_BUILD_PYTHON)
   message(FATAL_ERROR "GRANULAR_DEB is for all of this project: GRANULAR_BUILD_PLUGIN, GRANULAR_PARAVIEW and "
@@ -75,8 +75,8 @@ execute_process(COMMAND gzip -9nc "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
 set(granular_components c bonds python command plugin paraview_python dev)
 set(granular_libraries libgranular libgranular_bonds)
 set(granular_packages
-  libgranular${PROJECT_VERSION_MAJOR} libgranular-bonds${PROJECT_VERSION_MAJOR} python3-granular granular granular-paraview
-  python3-granular-paraview libgranular-dev)
+  libgranular${PROJECT_VERSION_MAJOR} libgranular-bonds${PROJECT_VERSION_MAJOR} python3-vtkgranular granular granular-paraview
+  python3-vtkgranular-paraview libgranular-dev)
 foreach(component package IN ZIP_LISTS granular_components granular_packages)
   install(FILES
     "${PROJECT_BINARY_DIR}/packaging/changelog.Debian.gz"
@@ -135,15 +135,15 @@ Fortran.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "libgranular${PROJECT_VERSION_MAJOR} (= ${granular_version})" "python3 (>= 3.9~)" "python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-granular-paraview")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-vtkgranular-paraview")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/packaging/python/postinst" "${PROJECT_SOURCE_DIR}/packaging/python/prerm")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "files of discrete-element simulations as arrays (Python 3)
-The package granular: runs and frames of LIGGGHTS and LAMMPS as numpy
+The package vtkgranular: runs and frames of LIGGGHTS and LAMMPS as numpy
 arrays, arrays as dumps, and functions for scripts of ParaView.")
 
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS "python3, python3-granular (= ${granular_version})")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS "python3, python3-vtkgranular (= ${granular_version})")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "python3-vtk9 | python3-paraview, xauth, xvfb")
 set(CPACK_DEBIAN_COMMAND_DESCRIPTION "looks into files of discrete-element simulations, and converts them
 The command granular says what dumps, restart and data files of LIGGGHTS
@@ -158,7 +158,7 @@ set(granular_after "${ParaView_VERSION_MAJOR}.${granular_next}~")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "paraview (>= ${granular_series}), paraview (<< ${granular_after})")
-set(CPACK_DEBIAN_PLUGIN_PACKAGE_SUGGESTS "python3-granular-paraview")
+set(CPACK_DEBIAN_PLUGIN_PACKAGE_SUGGESTS "python3-vtkgranular-paraview")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_ENHANCES "paraview")
 set(CPACK_DEBIAN_PLUGIN_DESCRIPTION "discrete-element data in ParaView
 Opens and writes the files of discrete-element simulations by LIGGGHTS and
@@ -173,12 +173,12 @@ set(CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_SHLIBDEPS ON)
 # libvtkGranular.so is in another package.
 set(CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 string(JOIN ", " CPACK_DEBIAN_PARAVIEW_PYTHON_PACKAGE_DEPENDS
-  "granular-paraview (= ${granular_version})" "python3-granular (= ${granular_version})"
+  "granular-paraview (= ${granular_version})" "python3-vtkgranular (= ${granular_version})"
   "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~)"
   "python3 (<< ${Python3_VERSION_MAJOR}.${granular_next})"
   "python3-paraview (>= ${granular_series})" "python3-paraview (<< ${granular_after})")
 set(CPACK_DEBIAN_PARAVIEW_PYTHON_DESCRIPTION "discrete-element data in VTK and ParaView (Python 3)
-The compiled part of the package granular: readers, writers and filters for
+The compiled part of the package vtkgranular: readers, writers and filters for
 the files of LIGGGHTS and LAMMPS as VTK classes.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

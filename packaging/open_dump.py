@@ -28,9 +28,9 @@ def open_dump(name, server=None):
     assert information.GetNumberOfPoints() == 1200, information.GetNumberOfPoints()
     assert reader.PointData["radius"].GetRange() == (0.0025, 0.0035), reader.PointData["radius"].GetRange()
 
-    import granular
-    assert granular.__file__ == "/usr/lib/python3/dist-packages/granular/__init__.py", granular.__file__
-    assert os.path.samefile(granular.load_plugin(), loaded[0])
+    import vtkgranular as vg
+    assert vg.__file__ == "/usr/lib/python3/dist-packages/vtkgranular/__init__.py", vg.__file__
+    assert os.path.samefile(vg.load_plugin(), loaded[0])
 
 
 # ParaView's window passes no arguments to a script, captures its output, and stays open after it.

@@ -3,13 +3,13 @@
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
-reader = granular.reader(path, dt=2e-5)  # seconds, the timestep of the input script
+reader = vg.reader(path, dt=2e-5)  # seconds, the timestep of the input script
 
 view = GetActiveViewOrCreate("RenderView")
 view.ViewSize = [760, 680]
@@ -17,14 +17,14 @@ view.OrientationAxesVisibility = 0
 GetAnimationScene().GoToLast()
 
 # The first output holds the particles. Their colour is the length of the velocity v.
-particles = granular.show(reader, view, color="v")
+particles = vg.show(reader, view, color="v")
 colors = GetColorTransferFunction("v")
-colors.ApplyPreset(granular.preset("Plasma"))
+colors.ApplyPreset(vg.preset("Plasma"))
 colors.RescaleTransferFunction(0, 1.5)
 legend = GetScalarBar(colors, view)
-granular.set_properties(legend, Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1,
-                        WindowLocation="Any Location", Position=[0.84, 0.35], ScalarBarLength=0.4,
-                        UseCustomLabels=1, CustomLabels=[0.5, 1.0], **granular.label_format("%.1f"))
+vg.set_properties(legend, Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1,
+                  WindowLocation="Any Location", Position=[0.84, 0.35], ScalarBarLength=0.4,
+                  UseCustomLabels=1, CustomLabels=[0.5, 1.0], **vg.label_format("%.1f"))
 particles.SetScalarBarVisibility(view, True)
 
 # The second output: the box of the simulation.
@@ -34,8 +34,8 @@ Show(OutputPort(reader, 1), view, AmbientColor=gray, DiffuseColor=gray, LineWidt
 Show(AnnotateTimeFilter(reader, Format="t = {time:.2f} s"), view,
      WindowLocation="Any Location", Position=[0.82, 0.85], FontSize=20)
 
-granular.set_properties(view, CameraPosition=[0.22, -0.30, 0.19], CameraFocalPoint=[0.02, 0.01, 0.069],
-                        CameraViewUp=[0, 0, 1])
+vg.set_properties(view, CameraPosition=[0.22, -0.30, 0.19], CameraFocalPoint=[0.02, 0.01, 0.069],
+                  CameraViewUp=[0, 0, 1])
 SaveScreenshot("grains.png", view, CompressionLevel="9", OverrideColorPalette="WhiteBackground")
 
 # Compare with the text of the last frame, without ParaView.

@@ -3,20 +3,20 @@
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
-reader = granular.reader(path)
+reader = vg.reader(path)
 view = GetActiveViewOrCreate("RenderView")
 GetAnimationScene().GoToLast()
 
 
 def load(what, **properties):
     """Sets properties of the reader; prints and returns how many particles and KiB it then loads."""
-    granular.set_properties(reader, **properties)
+    vg.set_properties(reader, **properties)
     reader.UpdatePipeline(view.ViewTime)
     loaded = reader.GetDataInformation()
     print(f"{what:30} {loaded.GetNumberOfPoints():5} particles {loaded.GetMemorySize():4} KiB")
@@ -34,17 +34,17 @@ tenth = load("  of every tenth particle", Stride=10)
 slab = load("  of a slice 14 mm thick", Stride=1, RegionOfInterest=[1, -1, -0.007, 0.007, 1, -1])
 SaveData("slice.vtp", reader, DataMode="Binary")  # raw data break with today's libexpat
 
-particles = granular.show(reader, view, color="v")
+particles = vg.show(reader, view, color="v")
 particles.SetScalarBarVisibility(view, True)
 Show(OutputPort(reader, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3, LineWidth=2)
-granular.set_properties(view, ViewSize=[640, 640], OrientationAxesVisibility=0, CameraViewUp=[0, 0, 1],
-                        CameraPosition=[0.013, -0.36, 0.14], CameraFocalPoint=[0.013, 0, 0.071])
+vg.set_properties(view, ViewSize=[640, 640], OrientationAxesVisibility=0, CameraViewUp=[0, 0, 1],
+                  CameraPosition=[0.013, -0.36, 0.14], CameraFocalPoint=[0.013, 0, 0.071])
 colors = GetColorTransferFunction("v")
-colors.ApplyPreset(granular.preset("Plasma"))
+colors.ApplyPreset(vg.preset("Plasma"))
 colors.RescaleTransferFunction(0, 1.5)
-granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="",
-                        **granular.label_format("%.1f"),
-                        WindowLocation="Any Location", Position=[0.84, 0.3])
+vg.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="",
+                  **vg.label_format("%.1f"),
+                  WindowLocation="Any Location", Position=[0.84, 0.3])
 SaveScreenshot("slice.png", view, OverrideColorPalette="WhiteBackground")
 
 # Compare with the text of the last frame, and with the file that was written.

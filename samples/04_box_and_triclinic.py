@@ -3,8 +3,8 @@
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/tri_scaled_image.dump")
@@ -21,12 +21,12 @@ strip.SplitHorizontal(0, 1 / 3)
 strip.SplitHorizontal(2, 1 / 2)
 points = {}
 for place, form, radius in (1, "Scaled", 0.036), (5, "Absolute", 0.3), (6, "Unwrapped", 0.3):
-    reader = granular.reader(path, Coordinates=form)
+    reader = vg.reader(path, Coordinates=form)
     points[form], corners = points_of(reader), points_of(OutputPort(reader, 1))
     view = CreateRenderView(OrientationAxesVisibility=0, CameraParallelProjection=1)
     AssignViewToLayout(view, strip, place)
-    granular.set_properties(view, ViewTime=1e9, CameraPosition=[8, -60, 16], CameraViewUp=[0, 0, 1])
-    granular.show(reader, view, radius=radius, color="image")
+    vg.set_properties(view, ViewTime=1e9, CameraPosition=[8, -60, 16], CameraViewUp=[0, 0, 1])
+    vg.show(reader, view, radius=radius, color="image")
     Show(OutputPort(reader, 1), view, LineWidth=2)
     Show(Text(Text=form), view, WindowLocation="Upper Center", FontSize=20)
     ResetCamera(view)
@@ -53,7 +53,7 @@ print(f"{len(s)} atoms in the box, {np.sum(image.any(axis=1))} have crossed a fa
 # by 0.03, and the reader warns.
 away = [f"{lo!r} {hi!r} {tilt!r}\n" for lo, hi, tilt in (hull + [1e6, 1e6, 0]).tolist()]
 Path("far.dump").write_text(text.replace(bounds, "".join(away)))
-single = granular.reader("far.dump", PointPrecision="Single", PointOrigin=[1e6] * 3)
+single = vg.reader("far.dump", PointPrecision="Single", PointOrigin=[1e6] * 3)
 error = abs(points_of(single) - points["Absolute"]).max()
 print(f"far away in single precision, PointOrigin 1e+06: largest error {error:.1g}")
 assert 1e-8 < error < 1e-6

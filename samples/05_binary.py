@@ -4,8 +4,8 @@ import struct
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
@@ -13,8 +13,8 @@ path, text_path = sys.argv[1:3] if sys.argv[2:] else (data / "grains.bin", data 
 
 # LIGGGHTS does not write the names of columns into a binary file: take them from the input script.
 names = "id type x y z ix iy iz vx vy vz radius"
-binary = granular.reader(path, ColumnNames=names)
-text = granular.reader(text_path)
+binary = vg.reader(path, ColumnNames=names)
+text = vg.reader(text_path)
 assert list(binary.TimestepValues) == list(text.TimestepValues)
 
 # The distance of the 6 digits of the text from where a particle was: the last one of 0.0999999 m is worth
@@ -22,18 +22,18 @@ assert list(binary.TimestepValues) == list(text.TimestepValues)
 shift = PythonCalculator(Input=[binary, text], ArrayName="shift",
                          Expression="mag(inputs[0].Points - inputs[1].Points) * 1e9")
 view = GetActiveViewOrCreate("RenderView")
-granular.set_properties(view, ViewSize=[640, 680], OrientationAxesVisibility=0, ViewTime=2000,
-                        CameraPosition=[0.014, -0.36, 0.13], CameraFocalPoint=[0.014, 0, 0.073],
-                        CameraViewUp=[0, 0, 1])
-particles = granular.show(shift, view, color="shift")
+vg.set_properties(view, ViewSize=[640, 680], OrientationAxesVisibility=0, ViewTime=2000,
+                  CameraPosition=[0.014, -0.36, 0.13], CameraFocalPoint=[0.014, 0, 0.073],
+                  CameraViewUp=[0, 0, 1])
+particles = vg.show(shift, view, color="shift")
 particles.SetScalarBarVisibility(view, True)
 Show(OutputPort(binary, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3, LineWidth=2)
 colors = GetColorTransferFunction("shift")
-colors.ApplyPreset(granular.preset("Plasma"))
+colors.ApplyPreset(vg.preset("Plasma"))
 colors.RescaleTransferFunction(0, 500)
-granular.set_properties(GetScalarBar(colors, view), Title="lost by the text [nm]", ComponentTitle="",
-                        **granular.label_format("%.0f"),
-                        WindowLocation="Any Location", Position=[0.83, 0.3])
+vg.set_properties(GetScalarBar(colors, view), Title="lost by the text [nm]", ComponentTitle="",
+                  **vg.label_format("%.0f"),
+                  WindowLocation="Any Location", Position=[0.83, 0.3])
 SaveScreenshot("lost.png", view, CompressionLevel="9", OverrideColorPalette="WhiteBackground")
 
 

@@ -4,8 +4,8 @@ import gzip
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 folder = Path(sys.argv[1]) if sys.argv[1:] else Path(__file__).parent / "data/compressed"
@@ -17,7 +17,7 @@ plain.write_bytes(gzip.decompress(packed[1].read_bytes()))
 files = [packed[0], plain, packed[2]]
 
 # The files may come in any order: frames are ordered by timestep. A step is 0.005 in units lj.
-reader = granular.reader(reversed(files), dt=0.005)
+reader = vg.reader(reversed(files), dt=0.005)
 times = list(reader.TimestepValues)
 assert times == [0, 0.25, 0.5]
 
@@ -28,14 +28,14 @@ strip.SplitHorizontal(2, 1 / 2)
 for place, time, file in zip((1, 5, 6), times, files):
     view = CreateRenderView(OrientationAxesVisibility=0, CameraParallelProjection=1)
     AssignViewToLayout(view, strip, place)
-    granular.set_properties(view, ViewTime=time, CameraPosition=[14, -60, 20], CameraViewUp=[0, 0, 1])
-    granular.show(reader, view, radius=0.5, color="id")
+    vg.set_properties(view, ViewTime=time, CameraPosition=[14, -60, 20], CameraViewUp=[0, 0, 1])
+    vg.show(reader, view, radius=0.5, color="id")
     Show(OutputPort(reader, 1), view, LineWidth=2)
     Show(Text(Text=f"t = {time}\n{file.name}"), view, WindowLocation="Upper Center", FontSize=15)
     ResetCamera(view)
     view.CameraParallelScale = 7.4
 colors = GetColorTransferFunction("id")
-colors.ApplyPreset(granular.preset("Viridis"))
+colors.ApplyPreset(vg.preset("Viridis"))
 colors.RescaleTransferFunction(1, 500)
 strip.SetSize(1200, 440)
 SaveScreenshot("melting.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

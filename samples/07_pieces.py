@@ -3,8 +3,8 @@
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
@@ -14,8 +14,8 @@ whole = Path(sys.argv[2]) if sys.argv[2:] else data / "grains.dump"
 # All files in one list: 5 timesteps of 4 ranks, by the pattern of the dump command. Their names tell
 # that they are pieces; other names need RepeatedSteps="Merge". If a piece is missing, its timestep
 # is left out, and a warning names it.
-files = [Path(file) for file in granular.files(folder / "pieces_*.%.dump")]
-particles = granular.reader(files, dt=2e-5)
+files = [Path(file) for file in vg.files(folder / "pieces_*.%.dump")]
+particles = vg.reader(files, dt=2e-5)
 assert particles.RepeatedSteps == "Auto" and len(files) == 4 * len(particles.TimestepValues)
 
 # The particles come rank by rank, so the number of particles in each file gives their ranks.
@@ -35,18 +35,18 @@ for place in 0, 1, 2:  # halves, and the halves of these: places 3 to 6
 for place, step in zip((3, 4, 5, 6), sorted(counts)[1:]):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    granular.set_properties(view, ViewTime=step * 2e-5, CameraPosition=[0.25, -0.41, 0.21],
-                            CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
-    granular.show(owners, view, color="process")
+    vg.set_properties(view, ViewTime=step * 2e-5, CameraPosition=[0.25, -0.41, 0.21],
+                      CameraFocalPoint=[0, 0, 0.063], CameraViewUp=[0, 0, 1])
+    vg.show(owners, view, color="process")
     Show(OutputPort(particles, 1), view)
     title = " + ".join(map(str, counts[step]))
     Show(Text(Text=f"{view.ViewTime:g} s: {title}"), view, WindowLocation="Upper Center")
 colors = GetColorTransferFunction("process")
-granular.set_properties(colors, InterpretValuesAsCategories=1,
-                        Annotations=[text for i in range(4) for text in (str(i), str(i))],
-                        IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
-granular.set_properties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
-                        Orientation="Horizontal", WindowLocation="Lower Center")
+vg.set_properties(colors, InterpretValuesAsCategories=1,
+                  Annotations=[text for i in range(4) for text in (str(i), str(i))],
+                  IndexedColors=[0.27, 0.45, 0.7, 0.95, 0.6, 0.2, 0.3, 0.65, 0.45, 0.75, 0.3, 0.3])
+vg.set_properties(GetScalarBar(colors, view), Title="process", ComponentTitle="", Visibility=1,
+                  Orientation="Horizontal", WindowLocation="Lower Center")
 strip.SetSize(1200, 480)
 SaveScreenshot("pieces.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 

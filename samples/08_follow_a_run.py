@@ -5,8 +5,8 @@ import subprocess
 import time
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 # LAMMPS pours particles into a box and pauses after each frame, as if there were more to compute.
@@ -52,7 +52,7 @@ view = GetActiveViewOrCreate("RenderView")
 Render(view)  # the first picture takes longest, and moves the camera
 camera = dict(CameraPosition=[0.25, -0.41, 0.21], CameraFocalPoint=[0, 0, 0.063],
               CameraViewUp=[0, 0, 1])
-granular.set_properties(view, ViewSize=[360, 480], OrientationAxesVisibility=0, **camera)
+vg.set_properties(view, ViewSize=[360, 480], OrientationAxesVisibility=0, **camera)
 
 
 def ready(path):
@@ -68,11 +68,11 @@ try:
     while not ready(run) and writer.poll() is None and time.monotonic() < give_up:
         time.sleep(0.02)
     assert ready(run), f"{command[0]} has written no frame"
-    reader = granular.reader(run, RefreshOnUpdate=1)  # every update looks at the file again
-    granular.show(reader, view, color="v")
+    reader = vg.reader(run, RefreshOnUpdate=1)  # every update looks at the file again
+    vg.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
     colors = GetColorTransferFunction("v")
-    colors.ApplyPreset(granular.preset("Plasma"))
+    colors.ApplyPreset(vg.preset("Plasma"))
     colors.RescaleTransferFunction(0, 1.5)
 
     seen, looks, running = {}, 0, True
@@ -102,13 +102,13 @@ for i, place in enumerate((3, 4, 5, 6)):
     step = sorted(seen)[(len(seen) - 1) * i // 3]
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    granular.set_properties(view, ViewTime=step, **camera)
-    granular.show(reader, view, color="v")
+    vg.set_properties(view, ViewTime=step, **camera)
+    vg.show(reader, view, color="v")
     Show(OutputPort(reader, 1), view)
     Show(Text(Text="look {}: frame {}".format(*seen[step])), view, WindowLocation="Upper Center")
 colors.RescaleTransferFunction(0, 1.5)
-granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
-                        Orientation="Horizontal", WindowLocation="Lower Center", **granular.label_format("%.1f"))
+vg.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
+                  Orientation="Horizontal", WindowLocation="Lower Center", **vg.label_format("%.1f"))
 strip.SetSize(1200, 480)
 SaveScreenshot("looks.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 

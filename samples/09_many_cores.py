@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 
@@ -34,7 +34,7 @@ def widen(source, target, tiles):
 def look(file, threads, picture):
     """An ordinary script; only Threads is about cores."""
     start = time.perf_counter()
-    reader = granular.reader(file, Threads=threads, dt=2e-5)
+    reader = vg.reader(file, Threads=threads, dt=2e-5)
     times = reader.TimestepValues
     for moment in times:
         reader.UpdatePipeline(moment)
@@ -43,11 +43,11 @@ def look(file, threads, picture):
     fastest = reader.PointData["v"].GetRange(-1)[1]
 
     view = GetActiveViewOrCreate("RenderView")
-    granular.set_properties(view, ViewSize=[640, 360], ViewTime=times[-1], OrientationAxesVisibility=0)
-    granular.show(reader, view, color="v")
+    vg.set_properties(view, ViewSize=[640, 360], ViewTime=times[-1], OrientationAxesVisibility=0)
+    vg.show(reader, view, color="v")
     GetColorTransferFunction("v").RescaleTransferFunction(0, 1.5)
     Render(view)  # the first picture moves the camera
-    granular.set_properties(view, CameraPosition=[0.35, -0.75, 0.65], CameraFocalPoint=[0.35, 0.25, 0])
+    vg.set_properties(view, CameraPosition=[0.35, -0.75, 0.65], CameraFocalPoint=[0.35, 0.25, 0])
     SaveScreenshot(picture, view, OverrideColorPalette="WhiteBackground")
     print(f"{particles} particles, the fastest at {fastest:.17g} m/s: {len(times)} frames in {took:.2f} s")
 
@@ -72,7 +72,7 @@ else:
         result("one core", python("1", "one_core.png")),
         result("all cores", python("0", "all_cores.png")),
         result("four processes",
-               granular.pvbatch(__file__, "wide.dump", "0", "four_processes.png", ranks=4)),
+               vg.pvbatch(__file__, "wide.dump", "0", "four_processes.png", ranks=4)),
     }
     assert len(results) == 1, results
     print("the same particles at the same speeds; see one_core.png and four_processes.png")

@@ -5,44 +5,44 @@ import re
 import sys
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
 # Only the large particles. The output of a filter still has the timesteps, box and columns of the dump.
-reader = granular.reader(path)
+reader = vg.reader(path)
 large = Threshold(Input=reader, Scalars=["POINTS", "radius"], LowerThreshold=0.003,
                   UpperThreshold=1)
 
 # The ending of the name chooses text, compressed text or binary. The text has the lines that LIGGGHTS
-# wrote. granular.save is SaveData for any name, and raises an error if writing fails.
+# wrote. vg.save is SaveData for any name, and raises an error if writing fails.
 SaveData("large.dump", large, WriteTimeSteps=1, Dialect="LIGGGHTS")
-granular.save(large, "large.dump.gz", WriteTimeSteps=1, Dialect="LIGGGHTS")
+vg.save(large, "large.dump.gz", WriteTimeSteps=1, Dialect="LIGGGHTS")
 
 # Binary files hold all digits and, in the dialect LAMMPS, the names of their columns.
 # New columns are possible.
 faster = Calculator(Input=large, Function="mag(v)", ResultArrayName="speed")
-granular.save(faster, "large.bin", WriteTimeSteps=1, Columns="id type x y z v radius speed")
+vg.save(faster, "large.bin", WriteTimeSteps=1, Columns="id type x y z v radius speed")
 
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
 for place, file, color in (1, path, "v"), (2, "large.bin", "speed"):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    granular.set_properties(view, ViewTime=2000, CameraPosition=[0.20, -0.33, 0.19],
-                            CameraFocalPoint=[0.006, 0, 0.070], CameraViewUp=[0, 0, 1])
-    shown = granular.reader(file)
-    granular.show(shown, view, color=color)
+    vg.set_properties(view, ViewTime=2000, CameraPosition=[0.20, -0.33, 0.19],
+                      CameraFocalPoint=[0.006, 0, 0.070], CameraViewUp=[0, 0, 1])
+    shown = vg.reader(file)
+    vg.show(shown, view, color=color)
     Show(OutputPort(shown, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=Path(file).name), view, WindowLocation="Upper Center", FontSize=18)
     colors = GetColorTransferFunction(color)
-    colors.ApplyPreset(granular.preset("Plasma"))
+    colors.ApplyPreset(vg.preset("Plasma"))
     colors.RescaleTransferFunction(0, 1.5)
-granular.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
-                        **granular.label_format("%.1f"),
-                        WindowLocation="Any Location", Position=[0.86, 0.3])
+vg.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", Visibility=1,
+                  **vg.label_format("%.1f"),
+                  WindowLocation="Any Location", Position=[0.86, 0.3])
 strip.SetSize(1000, 560)
 SaveScreenshot("before_and_after.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
@@ -58,7 +58,7 @@ assert Path("large.dump").read_text() == expected
 assert gzip.open("large.dump.gz", "rt").read() == expected
 
 # The binary file reads back bit by bit.
-back = granular.reader("large.bin")
+back = vg.reader("large.bin")
 times = list(reader.TimestepValues)
 assert list(back.TimestepValues) == times
 for time in times:

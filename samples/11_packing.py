@@ -3,8 +3,8 @@
 import itertools
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 # Small and large particles at random positions: 20 % of a box that is periodic in x and y.
@@ -23,17 +23,17 @@ lattice = GranularPackingSource(Arrangement="FaceCentredCubic", NumberOfGrains=0
 # 17 digits, so that no rounding makes particles touch.
 sources = {"random": random, "lattice": lattice}
 for (name, source), dialect in itertools.product(sources.items(), ("LIGGGHTS", "LAMMPS")):
-    granular.save(source, f"{name}.{dialect}", Dialect=dialect, NumberFormat="%.17g",
-                  Columns="id type x y z vx vy vz radius")
+    vg.save(source, f"{name}.{dialect}", Dialect=dialect, NumberFormat="%.17g",
+            Columns="id type x y z vx vy vz radius")
 
 strip = CreateLayout()
 strip.SplitHorizontal(0, 0.5)
 for place, (name, source) in zip((1, 2), sources.items()):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    granular.set_properties(view, CameraPosition=[0.28, -0.32, 0.22], CameraFocalPoint=[0.052, 0.05, 0.073],
-                            CameraViewUp=[0, 0, 1])
-    granular.show(source, view, color="radius")
+    vg.set_properties(view, CameraPosition=[0.28, -0.32, 0.22], CameraFocalPoint=[0.052, 0.05, 0.073],
+                      CameraViewUp=[0, 0, 1])
+    vg.show(source, view, color="radius")
     Show(OutputPort(source, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=name), view, WindowLocation="Upper Center", FontSize=18)
 GetColorTransferFunction("radius").RGBPoints = [0.0025, 0.27, 0.45, 0.7, 0.004, 0.95, 0.6, 0.2]

@@ -2,12 +2,12 @@
 """How evenly are the particles of a parallel run distributed over its ranks, and would other grids be better?"""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-particles = granular.reader(data / "grains.dump")
+particles = vg.reader(data / "grains.dump")
 
 # The run had four ranks, `processors 2 1 2`. Each subdomain is a voxel.
 domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
@@ -19,18 +19,18 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
     view.ViewTime = step  # each view has its own
-    granular.show(particles, view)
+    vg.show(particles, view)
     voxels = Show(domains, view, Representation="Surface With Edges", Opacity=0.5)
     ColorBy(voxels, ("CELLS", "nlocal"))
     Show(Text(Text=f"step {step}"), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)  # the first picture moves the camera
-    granular.set_properties(view, CameraPosition=[0.25, -0.39, 0.19], CameraFocalPoint=[0, 0, 0.06],
-                            CameraViewUp=[0, 0, 1])
+    vg.set_properties(view, CameraPosition=[0.25, -0.39, 0.19], CameraFocalPoint=[0, 0, 0.06],
+                      CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("nlocal")
 colors.RescaleTransferFunction(0, 600)
-granular.set_properties(GetScalarBar(colors, view), Title="particles per rank", ComponentTitle="",
-                        WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,
-                        **granular.label_format("%.0f"))
+vg.set_properties(GetScalarBar(colors, view), Title="particles per rank", ComponentTitle="",
+                  WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,
+                  **vg.label_format("%.0f"))
 voxels.SetScalarBarVisibility(view, True)
 strip.SetSize(1400, 520)
 SaveScreenshot("load_balance.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
@@ -38,7 +38,7 @@ SaveScreenshot("load_balance.png", strip, SeparatorWidth=0, OverrideColorPalette
 
 def count(**properties):
     """Particles of each rank, and the largest number divided by the mean."""
-    granular.set_properties(domains, **properties)
+    vg.set_properties(domains, **properties)
     domains.UpdatePipeline(4000)
     voxels = servermanager.Fetch(domains)
     nlocal = voxels.GetCellData().GetArray("nlocal")

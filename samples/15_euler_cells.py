@@ -2,18 +2,18 @@
 """How densely are particles packed, and where is the surface of the heap? Averages over cells tell."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-particles = granular.reader(data / "grains.dump", dt=2e-5)
+particles = vg.reader(data / "grains.dump", dt=2e-5)
 
 # Cells of 10 mm: an image with cell data. Each cell gets the part of each sphere inside it.
 cells = GranularEulerAverage(Input=particles, CellCounts=[10, 10, 15])
 fields = CellDatatoPointData(Input=cells)
 middle = Slice(Input=fields, SliceType="Plane")
-granular.set_properties(middle.SliceType, Origin=[0, 0, 0.075], Normal=[0, 1, 0])
+vg.set_properties(middle.SliceType, Origin=[0, 0, 0.075], Normal=[0, 1, 0])
 surface = Contour(Input=fields, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.3])
 
 strip = CreateLayout()
@@ -27,30 +27,30 @@ for place, text in ((1, "particles"), (5, "volume fraction"), (6, "where it is 0
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
     Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     views.append(view)
-granular.show(particles, views[0], color="radius").SetScalarBarVisibility(views[0], False)
+vg.show(particles, views[0], color="radius").SetScalarBarVisibility(views[0], False)
 shown = Show(middle, views[1], Ambient=1, Diffuse=0)
 ColorBy(shown, ("POINTS", "volumefraction"))
 colors = GetColorTransferFunction("volumefraction")
 colors.RescaleTransferFunction(0, 0.6)
-granular.set_properties(GetScalarBar(colors, views[1]), Title="", ComponentTitle="", HorizontalTitle=1,
-                        WindowLocation="Any Location", Position=[0.86, 0.25], ScalarBarLength=0.5,
-                        **granular.label_format("%.1f"))
+vg.set_properties(GetScalarBar(colors, views[1]), Title="", ComponentTitle="", HorizontalTitle=1,
+                  WindowLocation="Any Location", Position=[0.86, 0.25], ScalarBarLength=0.5,
+                  **vg.label_format("%.1f"))
 shown.SetScalarBarVisibility(views[1], True)
 shown = Show(surface, views[2])
 ColorBy(shown, None)
-granular.set_properties(shown, AmbientColor=[0.27, 0.45, 0.7], DiffuseColor=[0.27, 0.45, 0.7])
-granular.show(particles, views[2]).Opacity = 0.15
+vg.set_properties(shown, AmbientColor=[0.27, 0.45, 0.7], DiffuseColor=[0.27, 0.45, 0.7])
+vg.show(particles, views[2]).Opacity = 0.15
 for view in views:
     Render(view)  # the first picture moves the camera
-    granular.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
-                            CameraViewUp=[0, 0, 1])
+    vg.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
+                      CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 480)
 SaveScreenshot("euler_cells.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 
 def fetch(**properties):
     """The values of all cells by name."""
-    granular.set_properties(cells, **properties)
+    vg.set_properties(cells, **properties)
     cells.UpdatePipeline(4000 * 2e-5)
     arrays = servermanager.Fetch(cells).GetCellData()
     return {name: np.array(arrays.GetArray(name)) for name in ("v_avg", "volumefraction")}
@@ -79,5 +79,5 @@ print(f"over all frames: {mean['volumefraction'].max():.3f} in the fullest cell,
 
 # Files in the format of LIGGGHTS, one per timestep.
 cells.TimeAverage = 0
-granular.save(cells, "cells_*.euler", WriteTimeSteps=1)
+vg.save(cells, "cells_*.euler", WriteTimeSteps=1)
 print("written:", *sorted(path.name for path in Path.cwd().glob("cells_*.euler")))

@@ -2,13 +2,13 @@
 """Compare the files of LIGGGHTS' fix ave/euler with averages of the dump of the same run, cell by cell."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data"
-files = granular.reader(data / "euler_*.vtk")
-particles = granular.reader(data / "grains.dump")
+files = vg.reader(data / "euler_*.vtk")
+particles = vg.reader(data / "grains.dump")
 
 # `fix ave/euler ... cell_size_relative 3`: cells of three times the largest diameter or more.
 averages = GranularEulerAverage(Input=particles, Output="Points", CellsBy="CellSizeRelative",
@@ -73,13 +73,13 @@ for place, (text, proxy) in zip((1, 2), {"LIGGGHTS": files, "from the dump": ave
     ColorBy(Show(arrows, view), None)
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)  # the first picture moves the camera
-    granular.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
-                            CameraViewUp=[0, 0, 1])
+    vg.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
+                      CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("volumefraction")
 colors.RescaleTransferFunction(0, 0.25)
-granular.set_properties(GetScalarBar(colors, view), Title="volume fraction", ComponentTitle="",
-                        WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.5,
-                        **granular.label_format("%.2f"))
+vg.set_properties(GetScalarBar(colors, view), Title="volume fraction", ComponentTitle="",
+                  WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.5,
+                  **vg.label_format("%.2f"))
 shown.SetScalarBarVisibility(view, True)
 strip.SetSize(1000, 560)
 SaveScreenshot("euler_files.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

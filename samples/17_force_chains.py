@@ -2,14 +2,14 @@
 """Which contacts carry the weight of a bed of particles? Tubes show them, thick and red where the force is large."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
-particles = granular.reader(data / "settled_grains.dump.gz")
+particles = vg.reader(data / "settled_grains.dump.gz")
 # The columns are called c_fc[1] and so on. Without a Preset the reader finds their meaning and reports it.
-contacts = granular.reader(data / "settled_contacts.dump.gz", Preset="ContactsForce")
+contacts = vg.reader(data / "settled_contacts.dump.gz", Preset="ContactsForce")
 
 # Tubes take their radius from a point array. Each line has two points of its own, so no values mix.
 strength = Calculator(Input=contacts, AttributeType="Cell Data", ResultArrayName="strength", Function="mag(force)")
@@ -18,17 +18,17 @@ chains = Tube(Input=CellDatatoPointData(Input=thickness), Scalars=["POINTS", "th
               VaryRadius="By Absolute Scalar", NumberofSides=12)
 
 view = CreateRenderView(ViewSize=[1000, 500], OrientationAxesVisibility=0)
-grey = granular.show(particles, view)
-granular.set_properties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
+grey = vg.show(particles, view)
+vg.set_properties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
 shown = Show(chains, view)
 ColorBy(shown, ("POINTS", "strength"))
 shown.SetScalarBarVisibility(view, True)
-granular.set_properties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
-                        HorizontalTitle=1, **granular.label_format("%.3f"))
+vg.set_properties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
+                  HorizontalTitle=1, **vg.label_format("%.3f"))
 Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
 Render(view)
-granular.set_properties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006],
-                        CameraViewUp=[0, 0, 1])
+vg.set_properties(view, CameraPosition=[0.04, -0.16, 0.07], CameraFocalPoint=[0.004, 0, 0.006],
+                  CameraViewUp=[0, 0, 1])
 SaveScreenshot("force_chains.png", view, OverrideColorPalette="WhiteBackground")
 
 # The forces on a particle that does not touch the ground: its weight and its contacts, opposite at both ends.

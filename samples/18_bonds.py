@@ -2,14 +2,14 @@
 """Bonds across a periodic face, and their elongation."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
-beads = granular.reader(data / "chain.dump", dt=0.004)
+beads = vg.reader(data / "chain.dump", dt=0.004)
 # Columns in the order of the dump command. Rows without positions become lines only with the particles.
-bonds = granular.reader(data / "chain_bonds.dump", dt=0.004, Preset="BondTypeIdsForce")
+bonds = vg.reader(data / "chain_bonds.dump", dt=0.004, Preset="BondTypeIdsForce")
 lines = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1), Averages="v", EquilibriumLength=1.05)
 
 strip = CreateLayout()
@@ -28,8 +28,8 @@ for place, periodic in ((1, "AsWritten"), (5, "MinimumImage"), (6, "Split")):
     Show(OutputPort(beads, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=periodic), view, WindowLocation="Upper Left Corner", FontSize=18)
     Render(view)
-    granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
-                            CameraViewUp=[0, 0, 1], CameraParallelScale=8.5)
+    vg.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
+                      CameraViewUp=[0, 0, 1], CameraParallelScale=8.5)
 strip.SetSize(900, 900)
 SaveScreenshot("bonds.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
@@ -43,7 +43,7 @@ for step in 0, 500, 1000:
           f"strained by {strain.min():+.3f} to {strain.max():+.3f}")
 
 # The bonds of a data file work as well, because the ids are the same.
-pairs = granular.reader(data / "chain.data", AtomStyle="bond")
+pairs = vg.reader(data / "chain.data", AtomStyle="bond")
 again = GranularLocalJoin(Input=beads, Lines=OutputPort(pairs, 1))
 again.UpdatePipeline(time)
 lines.UpdatePipeline(time)

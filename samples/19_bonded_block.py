@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A bonded block without a file, whole and cut in two: which bonds cross the cut, and how bending strains the others."""
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 block = GranularPackingSource(Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.004,
@@ -24,15 +24,15 @@ strip.SplitHorizontal(0, 0.5)
 for place, particles, lines, text in ((1, sided, before, "whole"), (2, bent, after, "cut and bent")):
     view = CreateRenderView(OrientationAxesVisibility=0)
     AssignViewToLayout(view, strip, place)
-    granular.show(particles, view).Opacity = 0.08
+    vg.show(particles, view).Opacity = 0.08
     shown = Show(Tube(Input=lines, Radius=0.0007), view)
     ColorBy(shown, ("CELLS", "strain"))
     GetColorTransferFunction("strain").RescaleTransferFunction(-0.2, 0.2)
     shown.SetScalarBarVisibility(view, text != "whole")
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)
-    granular.set_properties(view, CameraPosition=[0.13, -0.3, 0.14], CameraFocalPoint=[0.08, 0.025, 0.02],
-                            CameraViewUp=[0, 0, 1])
+    vg.set_properties(view, CameraPosition=[0.13, -0.3, 0.14], CameraFocalPoint=[0.08, 0.025, 0.02],
+                      CameraViewUp=[0, 0, 1])
 strip.SetSize(1200, 480)
 SaveScreenshot("bonded_block.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 

@@ -2,12 +2,12 @@
 """The contents of a restart file: particles in full precision, and bonds with forces and torques."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "restart"
-fibres = granular.reader([data / f"fibres.{step}.restart" for step in (10000, 20000, 40000)], dt=1e-6)
+fibres = vg.reader([data / f"fibres.{step}.restart" for step in (10000, 20000, 40000)], dt=1e-6)
 bonds = OutputPort(fibres, 1)
 
 strip = CreateLayout()
@@ -28,8 +28,8 @@ for place, time in ((1, 0.01), (2, 0.04)):
     Show(OutputPort(fibres, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3)
     Show(Text(Text=f"{1000 * time:.0f} ms"), view, WindowLocation="Upper Left Corner", FontSize=18)
     Render(view)
-    granular.set_properties(view, CameraPosition=[0.03, -0.055, 0.02], CameraFocalPoint=[0.0095, 0.001, 0],
-                            CameraViewUp=[0, 0, 1])
+    vg.set_properties(view, CameraPosition=[0.03, -0.055, 0.02], CameraFocalPoint=[0.0095, 0.001, 0],
+                      CameraViewUp=[0, 0, 1])
     views.append(view)
 colours = GetColorTransferFunction("bending moment [N m]")
 colours.RescaleTransferFunction(0, 8e-6)

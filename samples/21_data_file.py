@@ -3,12 +3,12 @@
 from pathlib import Path
 
 import numpy as np
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "bonds"
 # This file lacks the comment `Atoms # bond`, which would give the style.
-chains = granular.reader(data / "chain.data", AtomStyle="bond")
+chains = vg.reader(data / "chain.data", AtomStyle="bond")
 bonds = OutputPort(chains, 1)
 
 view = CreateRenderView(OrientationAxesVisibility=0, ViewSize=[1000, 500])
@@ -18,8 +18,8 @@ shown = Show(Tube(Input=bonds, Radius=0.12), view)
 ColorBy(shown, ("CELLS", "btype"))
 Show(OutputPort(chains, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3)
 Render(view)
-granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
-                        CameraViewUp=[0, 0, 1], CameraParallelScale=9)
+vg.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],
+                  CameraViewUp=[0, 0, 1], CameraParallelScale=9)
 SaveScreenshot("data_file.png", view, OverrideColorPalette="WhiteBackground")
 
 particles, lines = (servermanager.Fetch(chains, idx=port) for port in (0, 1))

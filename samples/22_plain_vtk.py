@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-import granular
+import vtkgranular as vg
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (draws what vtkRenderingCore describes)
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPlane
@@ -15,7 +15,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkDataSetMapper, vtkPointGau
 path = sys.argv[1] if sys.argv[1:] else str(Path(__file__).parent / "data/grains.dump")
 
 # A reader is an algorithm like any other: look at the times it offers, and update to the last.
-reader = granular.vtkGranularDumpReader()
+reader = vg.vtkGranularDumpReader()
 reader.AddFileName(path)
 reader.SetTimestepSize(2e-5)  # seconds, from the input script
 reader.UpdateInformation()
@@ -87,7 +87,7 @@ writer.SetFileName("plain_vtk.png")
 writer.Write()
 
 # Writers take what filters give: the particles behind the plane as a dump, which holds the same.
-dump = granular.vtkGranularDumpWriter()
+dump = vg.vtkGranularDumpWriter()
 dump.SetInputConnection(behind.GetOutputPort())
 dump.SetFileName("behind.dump")
 assert dump.Write()

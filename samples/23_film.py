@@ -8,26 +8,26 @@ import subprocess
 import sys
 from pathlib import Path
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data/grains.dump"
 
 
 def save_state(name):
-    reader = granular.reader(data, dt=2e-5)
+    reader = vg.reader(data, dt=2e-5)
     view = GetActiveViewOrCreate("RenderView")
-    granular.set_properties(view, ViewSize=[600, 580], OrientationAxesVisibility=0, CameraPosition=[0.22, -0.30, 0.19],
-                            CameraFocalPoint=[0.0, 0.01, 0.069], CameraViewUp=[0, 0, 1])
-    granular.show(reader, view, color="v", box=True)
+    vg.set_properties(view, ViewSize=[600, 580], OrientationAxesVisibility=0, CameraPosition=[0.22, -0.30, 0.19],
+                      CameraFocalPoint=[0.0, 0.01, 0.069], CameraViewUp=[0, 0, 1])
+    vg.show(reader, view, color="v", box=True)
     colours = GetColorTransferFunction("v")
-    colours.ApplyPreset(granular.preset("Plasma"))
+    colours.ApplyPreset(vg.preset("Plasma"))
     colours.RescaleTransferFunction(0, 1.5)
     SaveState(name)
 
 
 def render(state, first, step):
-    granular.load_state(state)
+    vg.load_state(state)
     scene = GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     times = list(GetTimeKeeper().TimestepValues)

@@ -2,14 +2,14 @@
 """A bonded block falls and breaks: which bonds broke, where they were, and how large the fragments are."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "time"
-beads = granular.reader(data / "block.dump.gz", dt=0.002)
+beads = vg.reader(data / "block.dump.gz", dt=0.002)
 # Rows without positions become lines with the particles.
-local = granular.reader(data / "block_bonds.dump.gz", dt=0.002, Preset="BondTypeIds")
+local = vg.reader(data / "block_bonds.dump.gz", dt=0.002, Preset="BondTypeIds")
 bonds = GranularLocalJoin(Input=beads, Lines=OutputPort(local, 1))
 
 # The first output has the particles with their fragments, the second the bonds of both frames: `change` is 2 for those that
@@ -34,21 +34,21 @@ for place, moment in ((1, times[4]), (2, times[9])):
         Show(cracks, view, AmbientColor=[0.8, 0, 0], DiffuseColor=[0.8, 0, 0])
     Show(Text(Text="bonds that have just broken" if moment == times[4] else "fragments"), view, WindowLocation="Upper Center", FontSize=18)
     Render(view)
-    granular.set_properties(view, CameraPosition=[18, -53, 17], CameraFocalPoint=[1.5, 0, 9], CameraViewUp=[0, 0, 1])
+    vg.set_properties(view, CameraPosition=[18, -53, 17], CameraFocalPoint=[1.5, 0, 9], CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("fragment_size")
-colors.ApplyPreset(granular.preset("Viridis"), True)
+colors.ApplyPreset(vg.preset("Viridis"), True)
 colors.RescaleTransferFunction(1, 742)
 colors.MapControlPointsToLogSpace()
 colors.UseLogScale = 1
-granular.set_properties(GetScalarBar(colors, view), Title="particles of the fragment", ComponentTitle="", Orientation="Horizontal",
-                        WindowLocation="Lower Center", ScalarBarLength=0.5, **granular.label_format("%.0f"))
+vg.set_properties(GetScalarBar(colors, view), Title="particles of the fragment", ComponentTitle="", Orientation="Horizontal",
+                  WindowLocation="Lower Center", ScalarBarLength=0.5, **vg.label_format("%.0f"))
 shown.SetScalarBarVisibility(view, True)
 strip.SetSize(1200, 600)
 SaveScreenshot("breaking_block.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 
 for moment in times[::3]:
-    arrays = granular.fetch(since_start, time=moment)
-    change = granular.fetch(since_start, port=1, time=moment)["change"]
+    arrays = vg.fetch(since_start, time=moment)
+    change = vg.fetch(since_start, port=1, time=moment)["change"]
     numbers, sizes = np.unique(arrays["fragment"], return_counts=True)
     assert (sizes == arrays["fragment_size"][np.searchsorted(arrays["id"], numbers)]).all()  # the number is the smallest id
     print(f"time {moment:.1f}: {np.count_nonzero(change == 2)} of {len(change)} bonds are broken; {len(sizes)} fragments, "

@@ -2,8 +2,8 @@
 """Does the stress in a bed at rest bear the weight above it, and how much of it do the side walls hold?"""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "continuum"
@@ -27,14 +27,14 @@ def table(name, pressure, z):
 
 sources, curves = {}, {}
 for name, (of_contacts, of_walls) in BEDS.items():
-    particles = granular.reader(data / f"{name}.dump.gz")
-    contacts = granular.reader(data / f"{name}_contacts.dump.gz", ColumnMap=of_contacts)
-    walls = granular.reader(*data.glob(f"{name}_walls.dump*"), ColumnMap=of_walls)
+    particles = vg.reader(data / f"{name}.dump.gz")
+    contacts = vg.reader(data / f"{name}_contacts.dump.gz", ColumnMap=of_contacts)
+    walls = vg.reader(*data.glob(f"{name}_walls.dump*"), ColumnMap=of_walls)
     # A row for each layer. Each contact gives a layer the part of its line in it.
     profile = GranularEulerAverage(Input=particles, Lines=contacts, Walls=walls, Output="Profile",
                                    CellCounts=[1, 1, round(TOP / LAYER)],
                                    Bounds=[-SIDE / 2, SIDE / 2, -SIDE / 2, SIDE / 2, 0, TOP])
-    bed, touched, layers = (granular.fetch(source) for source in (particles, walls, profile))
+    bed, touched, layers = (vg.fetch(source) for source in (particles, walls, profile))
 
     z = layers["position"]
     pressure = -layers["sigma"][:, 2]
@@ -62,22 +62,22 @@ strip.SplitHorizontal(2, 1 / 2)
 view = CreateRenderView(OrientationAxesVisibility=0)
 AssignViewToLayout(view, strip, 1)
 particles, walls = sources["bed"]
-granular.set_properties(granular.show(particles, view), AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.12)
+vg.set_properties(vg.show(particles, view), AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.12)
 vertical = Calculator(Input=walls, AttributeType="Cell Data", ResultArrayName="vertical", Function="1000*force_Z")
 at_sides = Threshold(Input=vertical, Scalars=["CELLS", "mesh"], LowerThreshold=1, UpperThreshold=4)
 tubes = Show(Tube(Input=ExtractSurface(Input=at_sides), Radius=0.0005, NumberofSides=20), view)
 ColorBy(tubes, ("CELLS", "vertical"))
 colors = GetColorTransferFunction("vertical")
 colors.RescaleTransferFunction(-3, 3)
-granular.set_properties(GetScalarBar(colors, view), Title="vertical force of side walls [mN]", ComponentTitle="",
-                        Orientation="Horizontal", WindowLocation="Upper Center", ScalarBarLength=0.6, ScalarBarThickness=10,
-                        AddRangeLabels=0, UseCustomLabels=1, CustomLabels=[-3, 0, 3], **granular.label_format("%.0f"))
+vg.set_properties(GetScalarBar(colors, view), Title="vertical force of side walls [mN]", ComponentTitle="",
+                  Orientation="Horizontal", WindowLocation="Upper Center", ScalarBarLength=0.6, ScalarBarThickness=10,
+                  AddRangeLabels=0, UseCustomLabels=1, CustomLabels=[-3, 0, 3], **vg.label_format("%.0f"))
 tubes.SetScalarBarVisibility(view, True)
 Show(Outline(Input=Box(XLength=SIDE, YLength=SIDE, ZLength=TOP, Center=[0, 0, TOP / 2])), view, AmbientColor=[0.3] * 3,
      DiffuseColor=[0.3] * 3)
 Render(view)
-granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -0.1, 0.0212], CameraFocalPoint=[0, 0, 0.0212],
-                        CameraViewUp=[0, 0, 1], CameraParallelScale=0.0259)
+vg.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -0.1, 0.0212], CameraFocalPoint=[0, 0, 0.0212],
+                  CameraViewUp=[0, 0, 1], CameraParallelScale=0.0259)
 
 DARK, RED, GREEN = (0.2, 0.2, 0.2), (0.84, 0.15, 0.16), (0.17, 0.63, 0.17)
 bed, periodic = curves["bed"], curves["periodic_bed"]
@@ -87,13 +87,13 @@ for place, title, shown in (
                                 (periodic[3], "the same without side walls", GREEN, True)))):
     chart = CreateView("XYChartView")
     AssignViewToLayout(chart, strip, place)
-    granular.set_properties(chart, BottomAxisTitle=title, LeftAxisTitle="height [mm]", LegendLocation="TopRight",
-                            LeftAxisUseCustomRange=1, LeftAxisRangeMinimum=0, LeftAxisRangeMaximum=45)
+    vg.set_properties(chart, BottomAxisTitle=title, LeftAxisTitle="height [mm]", LegendLocation="TopRight",
+                      LeftAxisUseCustomRange=1, LeftAxisRangeMinimum=0, LeftAxisRangeMaximum=45)
     for source, label, color, points in shown:
-        granular.set_properties(Show(source, chart, "XYChartRepresentation"), UseIndexForXAxis=0, XArrayName="pressure",
-                                SeriesVisibility=["height"], SeriesLabel=["height", label],
-                                SeriesColor=["height", *map(str, color)], SeriesLineThickness=["height", "2"],
-                                SeriesLineStyle=["height", "0" if points else "1"], SeriesMarkerSize=["height", "7"],
-                                SeriesMarkerStyle=["height", "4" if points else "0"])
+        vg.set_properties(Show(source, chart, "XYChartRepresentation"), UseIndexForXAxis=0, XArrayName="pressure",
+                          SeriesVisibility=["height"], SeriesLabel=["height", label],
+                          SeriesColor=["height", *map(str, color)], SeriesLineThickness=["height", "2"],
+                          SeriesLineStyle=["height", "0" if points else "1"], SeriesMarkerSize=["height", "7"],
+                          SeriesMarkerStyle=["height", "4" if points else "0"])
 strip.SetSize(1200, 500)
 SaveScreenshot("weight_of_a_bed.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

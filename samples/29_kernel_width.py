@@ -2,15 +2,15 @@
 """How wide should a smoothing kernel be? A section of a bed at four widths: narrow ones show particles, wide ones blur the surface."""
 from pathlib import Path
 
-import granular
 import numpy as np
+import vtkgranular as vg
 from paraview.simple import *
 
 data = Path(__file__).parent / "data" / "continuum"
-particles = granular.reader(data / "bed.dump.gz")
-contacts = granular.reader(data / "bed_contacts.dump.gz",
-                           ColumnMap="pos id force force_normal force_tangential torque delta contactPoint")
-walls = granular.reader(data / "bed_walls.dump.gz", ColumnMap="pos wall_id force force_normal force_tangential torque delta")
+particles = vg.reader(data / "bed.dump.gz")
+contacts = vg.reader(data / "bed_contacts.dump.gz",
+                     ColumnMap="pos id force force_normal force_tangential torque delta contactPoint")
+walls = vg.reader(data / "bed_walls.dump.gz", ColumnMap="pos wall_id force force_normal force_tangential torque delta")
 RADIUS, SIDE, WIDTHS = 0.0025, 0.03, (0.5, 1, 2, 4)
 
 # Fields at the points of a plane through the middle of the bed.
@@ -21,9 +21,9 @@ for average in averages:
     average.Arrays = ["volumefraction", "pressure"]  # after it is made, as defaults are on until then
 # The circles in which the plane cuts the particles.
 spheres = Glyph(Input=particles, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2, GlyphMode="All Points")
-granular.set_properties(spheres.GlyphType, ThetaResolution=40, PhiResolution=40)
+vg.set_properties(spheres.GlyphType, ThetaResolution=40, PhiResolution=40)
 circles = Slice(Input=spheres)
-granular.set_properties(circles.SliceType, Origin=[0, 0, 0], Normal=[0, 1, 0])
+vg.set_properties(circles.SliceType, Origin=[0, 0, 0], Normal=[0, 1, 0])
 box = Outline(Input=Box(XLength=SIDE, YLength=SIDE, ZLength=0.036, Center=[0, 0, 0.018]))
 
 strip = CreateLayout()
@@ -34,7 +34,7 @@ for row, (name, title, scheme, labels) in enumerate((("volumefraction", "volume 
                                                      ("pressure", "pressure [Pa]", "RdOr", [0, 100, 200, 300, 400]))):
     colors = GetColorTransferFunction(name)
     colors.AutomaticRescaleRangeMode = "Never"
-    colors.ApplyPreset(granular.preset(scheme), True)
+    colors.ApplyPreset(vg.preset(scheme), True)
     colors.InvertTransferFunction()
     colors.RGBPoints = [*colors.RGBPoints[:1], 1, 1, 1, *colors.RGBPoints[4:]]  # nothing is white
     colors.NumberOfTableValues = 16
@@ -47,13 +47,13 @@ for row, (name, title, scheme, labels) in enumerate((("volumefraction", "volume 
             Show(lines, view, Ambient=1, Diffuse=0, AmbientColor=[0.2] * 3, DiffuseColor=[0.2] * 3, LineWidth=1.3)
         Show(Text(Text=f"{width} {'radius' if width == 1 else 'radii'}"), view, WindowLocation="Upper Center", FontSize=14)
         Render(view)
-        granular.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -0.1, 0.0215], CameraFocalPoint=[0, 0, 0.0215],
-                                CameraViewUp=[0, 0, 1], CameraParallelScale=0.0245)
+        vg.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -0.1, 0.0215], CameraFocalPoint=[0, 0, 0.0215],
+                          CameraViewUp=[0, 0, 1], CameraParallelScale=0.0245)
         if column == 0:
-            granular.set_properties(GetScalarBar(colors, view), Title=title, ComponentTitle="", Orientation="Horizontal",
-                                    WindowLocation="Any Location", Position=[0.2, 0.83], ScalarBarLength=0.6, ScalarBarThickness=8,
-                                    AddRangeLabels=0, UseCustomLabels=1, CustomLabels=labels, TitleFontSize=14, LabelFontSize=12,
-                                    **granular.label_format("%g"))
+            vg.set_properties(GetScalarBar(colors, view), Title=title, ComponentTitle="", Orientation="Horizontal",
+                              WindowLocation="Any Location", Position=[0.2, 0.83], ScalarBarLength=0.6, ScalarBarThickness=8,
+                              AddRangeLabels=0, UseCustomLabels=1, CustomLabels=labels, TitleFontSize=14, LabelFontSize=12,
+                              **vg.label_format("%g"))
             shown.SetScalarBarVisibility(view, True)
     colors.RescaleTransferFunction(0, labels[-1])
 strip.SetSize(1200, 800)
@@ -62,7 +62,7 @@ SaveScreenshot("kernel_width.png", strip, SeparatorWidth=0, OverrideColorPalette
 # Inside the bed the volume fraction should be one number. At the surface it should fall at once.
 variations, falls = [], []
 for width, average in zip(WIDTHS, averages):
-    fields = granular.fetch(average)
+    fields = vg.fetch(average)
     x, z, fraction = (array.reshape(129, 97) for array in (*fields["points"][:, ::2].T, fields["volumefraction"]))
     middle, heights = fraction[:, abs(x[0]) < 3 * RADIUS], z[:, 0]
     inside = middle[(heights > 3 * RADIUS) & (heights < 9 * RADIUS)]

@@ -6,8 +6,8 @@ import shutil
 import statistics
 import time
 
-import granular
 import numpy
+import vtkgranular as vg
 
 CASES = ((250, 1, 15), (25_000, 1, 15), (2_500_000, 1, 7), (25_000_000, 1, 3), (250, 1000, 3))  # rows, files, pairs
 
@@ -15,7 +15,7 @@ CASES = ((250, 1, 15), (25_000, 1, 15), (2_500_000, 1, 7), (25_000_000, 1, 3), (
 def write(arrays, files, durable):
     begin = time.monotonic()
     for number in range(files):
-        granular.write(f"cost_{number}.bin", arrays, box=((0, 1),) * 3, durable=durable)
+        vg.write(f"cost_{number}.bin", arrays, box=((0, 1),) * 3, durable=durable)
     return time.monotonic() - begin
 
 

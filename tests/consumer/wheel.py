@@ -24,15 +24,15 @@ shutil.rmtree("made", ignore_errors=True)
 run(sys.executable, "-m", "venv", "--system-site-packages", "--clear", "environment")
 run("environment/bin/python", "-m", "pip", "wheel", "--no-build-isolation", "--no-index", "--no-deps", "--wheel-dir", "made", "./sources")
 (wheel,) = os.listdir("made")
-assert wheel.startswith("granular-") and "-py3-none-linux_" in wheel, wheel
+assert wheel.startswith("vtk_granular-") and "-py3-none-linux_" in wheel, wheel
 names = zipfile.ZipFile(os.path.join("made", wheel)).namelist()
-assert {"granular/__init__.py", "granular/libgranular.so.0", "granular/_reader.py", "granular/command/info.py", "granular/py.typed"} <= set(names), names
+assert {"vtkgranular/__init__.py", "vtkgranular/libgranular.so.0", "vtkgranular/_reader.py", "vtkgranular/command/info.py", "vtkgranular/py.typed"} <= set(names), names
 run("environment/bin/python", "-m", "pip", "install", "--no-index", "--no-deps", "--force-reinstall", os.path.join("made", wheel))
 dump = os.path.join(source, "samples", "data", "grains.dump")
 run("environment/bin/granular", "check", dump)
-script = """import sys, granular
-assert "environment" in granular.__file__, granular.__file__
-run = granular.open(sys.argv[1])
+script = """import sys, vtkgranular as vg
+assert "environment" in vg.__file__, vg.__file__
+run = vg.open(sys.argv[1])
 assert run[-1]["v"].shape == (1200, 3)
 maps = open("/proc/self/maps").read()
 assert "environment/lib" in [line for line in maps.splitlines() if "libgranular" in line][0], maps

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which arrays there are: those that are on, where contacts tell them; the particles come through as they are."""
-import granular
 import numpy
+import vtkgranular as vg
 from contact_sums import NAMES, Sums, arrays_of
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -22,7 +22,7 @@ def made_by(sums):
 sums = Sums("bed", on=NAMES)
 all_ = made_by(sums)
 assert list(all_) == OF_PARTICLES
-selection = granular.vtkGranularContactSums().GetArraySelection()
+selection = vg.vtkGranularContactSums().GetArraySelection()
 assert [selection.GetArrayName(i) for i in range(selection.GetNumberOfArrays())] == NAMES
 assert [name for name in NAMES if selection.ArrayIsEnabled(name)] == NAMES[:5]
 types = {"coordination": numpy.int32, "coordination_without_rattlers": numpy.int32, "rattler": numpy.uint8}

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tilted boxes of LAMMPS, whose rows name particles by id alone: stresses, coordination and forces as the program has them,
 and the pressure of its log."""
-import granular
 import numpy
+import vtkgranular as vg
 from contact_sums import Sums
 
 import plain_contacts as plain
@@ -52,7 +52,7 @@ for name, step in LAST.items():
     # the rows have no lines, and so nothing has mobilised friction
     assert sums.filter.GetLinesOutput().GetNumberOfCells() == 0
     # lines that the join draws between the particles are the same contacts
-    join = granular.vtkGranularLocalJoin()
+    join = vg.vtkGranularLocalJoin()
     join.SetController(None)
     join.SetInputConnection(0, sums.particles.GetOutputPort())
     join.SetInputConnection(1, sums.contacts.GetOutputPort(1))

@@ -2,8 +2,8 @@
 """What the filter says: errors name what they mean, leave both outputs empty and the next update good; warnings count."""
 import itertools
 
-import granular
 import numpy
+import vtkgranular as vg
 from contact_sums import NAMES, Sums
 from said import said_by
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -73,7 +73,7 @@ def walls(**other):
 
 
 def made_of(particles=None, lines=None, walls=None, on=NAMES[:5], **properties):
-    made = granular.vtkGranularContactSums()
+    made = vg.vtkGranularContactSums()
     made.SetController(None)
     made.SetInputDataObject(0, particles or particles())
     for port, data in ((1, lines), (2, walls)):

@@ -8,7 +8,7 @@ import plain_data
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from said import said_by
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 COLUMNS = {"sphere": ["type", "diameter", "density"], "ellipsoid": ["type", "ellipsoidflag", "density"],
@@ -20,7 +20,7 @@ class Read:
     """The outputs, and all that was said."""
 
     def __init__(self, name, **properties):
-        reader = granular.vtkGranularDataFileReader()
+        reader = vg.vtkGranularDataFileReader()
         reader.SetController(None)
         self.said = said_by(reader)
         reader.AddFileName(os.path.abspath(name))
@@ -105,7 +105,7 @@ moved = Read(path, Coordinates=1).points() - read.points()
 number = list(read.points("id")).index(3)  # of image 1 -2 0
 assert numpy.allclose(moved[number], [4 - 2 * 0.5, -2 * 3, 0], rtol=0, atol=1e-14), moved[number]
 assert (numpy.delete(moved, number, axis=0) == 0).all()
-reader = granular.vtkGranularDataFileReader()
+reader = vg.vtkGranularDataFileReader()
 reader.AddFileName(path)
 reader.UpdateInformation()
 selection = reader.GetPointDataArraySelection()
@@ -119,13 +119,13 @@ assert points.GetNumberOfArrays() == 1 and (vtk_to_numpy(points.GetArray("omega"
 
 # ---- written as a dump and read again ---------------------------------------------------------------------
 
-writer = granular.vtkGranularDumpWriter()
+writer = vg.vtkGranularDumpWriter()
 writer.SetController(None)
 writer.SetInputData(read.particles)
 writer.SetFileName(os.path.abspath("sphere.dump"))
 writer.SetNumberFormat("%.17g")
 writer.Write()
-dump = granular.vtkGranularDumpReader()
+dump = vg.vtkGranularDumpReader()
 dump.SetController(None)
 dump.AddFileName(os.path.abspath("sphere.dump"))
 dump.Update()
@@ -141,17 +141,17 @@ for step in 1000, 2000:
         packed.write(text.replace("timestep = 3000", f"timestep = {step}"))
 with open("cut.data", "w") as file:
     file.write(text[:len(text) // 2])
-reader = granular.vtkGranularDataFileReader()
+reader = vg.vtkGranularDataFileReader()
 reader.SetController(None)
 said = said_by(reader)
 for name in ("series_2000.data.gz", path, "series_1000.data.gz", "cut.data"):
     reader.AddFileName(os.path.abspath(name))
 reader.UpdateTimeStep(2000)
-key = granular.vtkGranularDataFileReader.GetExecutive(reader).TIME_STEPS()
+key = vg.vtkGranularDataFileReader.GetExecutive(reader).TIME_STEPS()
 assert reader.GetOutputInformation(0).Get(key) == (1000, 2000, 3000)
 assert (vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("v")) == read.points("v")).all()
 assert len(said) == 1 and "in the section Atoms, got 36" in said[0] and "left out" in said[0], said
 assert "AtomStyle" in str(reader) and "RegionOfInterest" in str(reader)
 for name in ("grains.dump", "local/contacts.dump", "restart/fibres.restart"):
-    assert not granular.vtkGranularDataFileReader.CanReadFile(os.path.join(data, name))
+    assert not vg.vtkGranularDataFileReader.CanReadFile(os.path.join(data, name))
 print("read")

@@ -15,7 +15,7 @@ from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 random = numpy.random.default_rng(7)
@@ -29,7 +29,7 @@ def output(algorithm):
 
 
 def source(bounds, grid, cuts=((), (), ())):
-    algorithm = granular.vtkGranularDecompositionSource()
+    algorithm = vg.vtkGranularDecompositionSource()
     algorithm.SetBounds(*bounds)
     algorithm.SetProcessorGrid(*grid)
     for axis, positions in zip("XYZ", cuts):
@@ -39,7 +39,7 @@ def source(bounds, grid, cuts=((), (), ())):
 
 
 def reader(*names):
-    algorithm = granular.vtkGranularDecompositionReader()
+    algorithm = vg.vtkGranularDecompositionReader()
     algorithm.AddObserver("WarningEvent", lambda *_: None)  # of mirrored voxels
     for name in names:
         algorithm.AddFileName(os.path.join(data, name))
@@ -47,9 +47,9 @@ def reader(*names):
 
 
 def counted():
-    particles = granular.vtkGranularDumpReader()
+    particles = vg.vtkGranularDumpReader()
     particles.AddFileName(os.path.join(data, "grains_2000.dump"))
-    algorithm = granular.vtkGranularDecomposition()
+    algorithm = vg.vtkGranularDecomposition()
     algorithm.SetInputConnection(particles.GetOutputPort())
     algorithm.SetProcessorGrid(3, 2, 4)
     return output(algorithm)
@@ -158,7 +158,7 @@ thin = (1.0, numpy.nextafter(1.0, 2.0), 0, 1, 0, 1)
 for bounds, grid in ((thin, (1, 2, 2)), (far, (4, 2, 3))):
     made = source(bounds, grid)
     for ending in (".vtk", ".vtu"):
-        writer = granular.vtkGranularDecompositionWriter()
+        writer = vg.vtkGranularDecompositionWriter()
         writer.SetController(None)
         writer.SetInputData(made)
         writer.SetFileName(os.path.abspath("made" + ending))

@@ -7,7 +7,7 @@ import numpy
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
@@ -41,7 +41,7 @@ source = GranularDecompositionSource()
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfCells() == 1
 assert list(source.GetDataInformation().GetBounds()) == [0, 1, 0, 1, 0, 1]
-granular.set_properties(source, Bounds=[0, 4, 0, 2, 0, 1], ProcessorGrid=[2, 2, 1], XCuts=[3])
+vg.set_properties(source, Bounds=[0, 4, 0, 2, 0, 1], ProcessorGrid=[2, 2, 1], XCuts=[3])
 source.UpdatePipeline()
 grid = servermanager.Fetch(source)
 assert grid.GetNumberOfPoints() == 32 and grid.GetNumberOfCells() == 4
@@ -63,8 +63,8 @@ display = Show(divided, view)
 assert display.Representation == "Surface With Edges", display.Representation
 assert tuple(display.ColorArrayName) == ("CELLS", "nlocal"), display.ColorArrayName[:]
 view.ViewTime = 2000
-granular.show(particles, view)
-granular.set_properties(display, Opacity=0.4)
+vg.show(particles, view)
+vg.set_properties(display, Opacity=0.4)
 view.ResetActiveCameraToPositiveY()
 GetActiveCamera().Azimuth(30)
 GetActiveCamera().Elevation(25)

@@ -9,7 +9,7 @@ from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import all_ranks
-import granular
+import vtkgranular as vg
 from said import said_by
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -44,7 +44,7 @@ def reader_of(kind, *names):
 
 
 def filter_of(**properties):
-    algorithm = granular.vtkGranularDecomposition()
+    algorithm = vg.vtkGranularDecomposition()
     for name, value in properties.items():
         getattr(algorithm, f"Set{name}")(*value if isinstance(value, tuple) else (value,))
     return algorithm
@@ -52,7 +52,7 @@ def filter_of(**properties):
 
 # the source
 source = GranularDecompositionSource(Bounds=[0, 1, 0, 2, 0, 3], ProcessorGrid=[3, 5, 7])
-same = granular.vtkGranularDecompositionSource()
+same = vg.vtkGranularDecompositionSource()
 same.SetBounds(0, 1, 0, 2, 0, 3)
 same.SetProcessorGrid(3, 5, 7)
 assert digest(whole(source, 0)) == digest(alone(same))
@@ -63,7 +63,7 @@ divided = GranularDecompositionReader(FileNames=[os.path.join(data, "decompositi
 file = os.path.join(data, "grains_2000.dump")
 particles = GranularDumpReader(FileNames=[file])
 atoms = GranularDumpReader(FileNames=[os.path.join(data, "process_50.dump")])
-dumps = granular.vtkGranularDumpReader
+dumps = vg.vtkGranularDumpReader
 for proxy, algorithm, inputs in (
         (GranularDecomposition(Input=particles, ProcessorGrid=[3, 4, 5]),
          filter_of(ProcessorGrid=(3, 4, 5)), [reader_of(dumps, "grains_2000.dump")]),
@@ -71,7 +71,7 @@ for proxy, algorithm, inputs in (
          filter_of(Mode=1), [reader_of(dumps, "process_50.dump")]),
         (GranularDecomposition(Input=particles, Mode="Subdomains", Subdomains=divided),
          filter_of(Mode=2), [reader_of(dumps, "grains_2000.dump"),
-                             reader_of(granular.vtkGranularDecompositionReader, "decomposition/all.vtk")])):
+                             reader_of(vg.vtkGranularDecompositionReader, "decomposition/all.vtk")])):
     together = whole(proxy, 0)
     by_one = alone(algorithm, *inputs)
     assert digest(together) == digest(by_one)

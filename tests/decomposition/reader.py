@@ -13,7 +13,7 @@ from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
 from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-import granular
+import vtkgranular as vg
 
 boxes = [(0, 0, 0, .5, 1, 2), (.5, 0, 0, 1, 1, 2), (0, 0, 2, .5, 1, 3), (.5, 0, 2, 1, 1, 3)]
 order = (0, 1, 2, 3, 4, 5, 6, 7)  # LIGGGHTS-INL's, a mirror image
@@ -59,7 +59,7 @@ def write_xml(name, grid, mode):
 
 def read(name, **properties):
     """The output, and all that was said."""
-    reader = granular.vtkGranularDecompositionReader()
+    reader = vg.vtkGranularDecompositionReader()
     reader.SetController(None)
     said = said_by(reader)
     reader.AddFileName(name)
@@ -71,7 +71,7 @@ def read(name, **properties):
 
 
 def check(name, mirrored):
-    assert granular.vtkGranularDecompositionReader.CanReadFile(name), name
+    assert vg.vtkGranularDecompositionReader.CanReadFile(name), name
     grid, said = read(name)
     assert grid.GetNumberOfCells() == 4 and grid.GetNumberOfPoints() == 32, (name, said)
     assert len(said) == (1 if mirrored else 0), (name, said)

@@ -3,9 +3,9 @@
 import os
 import re
 
-import granular
 import numpy
 import plain_dump
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
@@ -64,7 +64,7 @@ for name, (bounds, volume) in boxes.items():
     grid = data_of(source)
     volume = volume or numpy.prod([hi - lo for lo, hi in zip(bounds[::2], bounds[1::2])])
     for file in ("a.vtk", "a.vtu", "a.decomposition"):
-        granular.save(source, file, writer=WRITER)
+        vg.save(source, file, writer=WRITER)
         again = read(file)
         assert again.GetPoints().GetData().GetDataTypeAsString() == "double"
         assert values(again) == values(grid), (name, file)
@@ -86,22 +86,22 @@ writer.GetInput().GetFieldData().Initialize()
 writer.SetFileVersion(42)
 writer.SetFileName("vtk.vtk")
 writer.Write()
-granular.save(source, "own.vtk", writer=WRITER)
+vg.save(source, "own.vtk", writer=WRITER)
 theirs = re.sub(rb"METADATA\n.*?\n\n", b"", content("vtk.vtk"), flags=re.DOTALL).replace(b"vtktypeint64", b"int")
 assert theirs.split(b"\n", 2)[2] == content("own.vtk").split(b"\n", 2)[2]
 
 # no process at all
 nothing = ProgrammableSource(OutputDataSetType="vtkUnstructuredGrid", Script="")
 for file in ("none.vtk", "none.vtu"):
-    granular.save(nothing, file, writer=WRITER)
+    vg.save(nothing, file, writer=WRITER)
     assert read(file).GetNumberOfCells() == 0
 
 # ---- counts, times and names -------------------------------------------------------------------------
 
 particles = GranularDumpReader(FileNames=[good("grains.dump")], TimestepSize=2e-5)
 domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
-granular.save(domains, "step_*.vtu", WriteTimeSteps=1)
-granular.save(domains, "step_*.vtk", WriteTimeSteps=1)
+vg.save(domains, "step_*.vtu", WriteTimeSteps=1)
+vg.save(domains, "step_*.vtk", WriteTimeSteps=1)
 for step, frame in zip((0, 1000, 2000), plain_dump.read(good("grains.dump")), strict=True):
     for file in (f"step_{step}.vtu", f"step_{step}.vtk"):
         grid = read(file)
@@ -117,12 +117,12 @@ assert list(again.TimestepValues) == [0, 1000, 2000], again.TimestepValues
 # ---- the bytes of LIGGGHTS-PUBLIC ----------------------------------------------------------------------
 
 divided = GranularDecompositionReader(FileNames=[good("decomposition/all.vtk")])
-granular.save(divided, "public.vtk", writer=WRITER, Dialect="PUBLIC", WriteTimeSteps=1)
+vg.save(divided, "public.vtk", writer=WRITER, Dialect="PUBLIC", WriteTimeSteps=1)
 assert content("public.vtk") == content(good("decomposition/all.vtk"))
 single = GranularDecompositionReader(FileNames=[good("decomposition_1000.vtk")])
 SaveData("public.decomposition", single, Dialect="PUBLIC")
 assert content("public.decomposition") == content(good("decomposition_1000.vtk"))
-granular.save(domains, "public_*.vtk", time=2000 * 2e-5, Dialect="PUBLIC")
+vg.save(domains, "public_*.vtk", time=2000 * 2e-5, Dialect="PUBLIC")
 assert content("public_2000.vtk") == content(good("decomposition_2000.vtk"))
 file = vtkRectilinearGridReader()
 file.SetFileName("public_2000.vtk")

@@ -7,7 +7,7 @@ import os
 import re
 import sys
 
-import granular
+import vtkgranular as vg
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 
@@ -47,7 +47,7 @@ def outputs(algorithm):
 
 
 def open_with(kind, *path, **properties):
-    reader = getattr(granular, "vtkGranular" + kind)()
+    reader = getattr(vg, "vtkGranular" + kind)()
     for name, value in properties.items():
         getattr(reader, "Set" + name)(*value if isinstance(value, tuple) else (value,))
     reader.AddFileName(os.path.join(*path))
@@ -66,11 +66,11 @@ def made():
     yield "LocalReader", set(), bonds
     contacts = open_with("LocalReader", SAMPLES, "bonds", "settled_contacts.dump.gz", PeriodicLines=1)
     yield "LocalReader", set(), contacts
-    packing = granular.vtkGranularPackingSource()
+    packing = vg.vtkGranularPackingSource()
     packing.SetNumberOfGrains(50)
     packing.SetSpeed(1)
     yield "PackingSource", set(), packing
-    average = granular.vtkGranularEulerAverage()
+    average = vg.vtkGranularEulerAverage()
     average.SetInputConnection(packing.GetOutputPort())
     average.SetCellCounts(2, 2, 2)
     yield "EulerAverage", names_of(outputs(packing)[0]) - {"radius"}, average
@@ -80,7 +80,7 @@ def made():
     plane = vtkPlaneSource()
     for name, inputs, more in (("ContactSums", names_of(outputs(bed)[0]), {}), ("EulerAverage", set(), {"CellCounts": (2, 2, 2)}),
                                ("PointAverage", {"points", "Normals", "TextureCoordinates"}, {})):
-        made_of_contacts = getattr(granular, "vtkGranular" + name)()
+        made_of_contacts = getattr(vg, "vtkGranular" + name)()
         made_of_contacts.SetInputConnection(0, bed.GetOutputPort())
         made_of_contacts.SetLinesConnection(touching.GetOutputPort())
         if name == "PointAverage":
@@ -90,13 +90,13 @@ def made():
         made_of_contacts.GetArraySelection().EnableAllArrays()
         made_of_contacts.GetArraySelection().DisableArray("mobilised_friction")
         yield name, inputs, made_of_contacts
-    source = granular.vtkGranularDecompositionSource()
+    source = vg.vtkGranularDecompositionSource()
     yield "DecompositionSource", set(), source
-    count = granular.vtkGranularDecomposition()
+    count = vg.vtkGranularDecomposition()
     count.SetInputConnection(packing.GetOutputPort())
     yield "Decomposition", names_of(outputs(packing)[0]), count
     particles = open_with("DumpReader", SAMPLES, "bonds", "chain.dump")
-    join = granular.vtkGranularLocalJoin()
+    join = vg.vtkGranularLocalJoin()
     join.SetInputConnection(0, particles.GetOutputPort())
     join.SetInputConnection(1, bonds.GetOutputPort(1))
     join.SetEquilibriumLength(1)
@@ -105,17 +105,17 @@ def made():
     lines = outputs(bonds)[1]
     join.SetPeriodicLines(join.SPLIT)
     yield "LocalJoin", (names_of(outputs(particles)[0]) | columns_of(lines)) - {"points"}, join
-    whole = granular.vtkGranularLocalJoin()
+    whole = vg.vtkGranularLocalJoin()
     whole.SetInputConnection(0, particles.GetOutputPort())
     whole.SetInputConnection(1, bonds.GetOutputPort(1))
-    compare = granular.vtkGranularCompare()
+    compare = vg.vtkGranularCompare()
     compare.SetInputConnection(0, particles.GetOutputPort())
     compare.SetLinesConnection(whole.GetOutputPort())
     compare.SetDifferences("*")
     compare.SetMassArray("mol")
     yield "Compare", names_of(outputs(particles)[0]) | names_of(outputs(whole)[0]), compare
-    paths = granular.vtkGranularTrajectories()
-    history = granular.vtkGranularHistory()
+    paths = vg.vtkGranularTrajectories()
+    history = vg.vtkGranularHistory()
     history.SetMeanSquareDisplacement(True)
     history.SetOutputType(history.STATISTICS)
     for name, algorithm in (("Trajectories", paths), ("History", history)):

@@ -2,8 +2,8 @@
 """On any number of ranks the picture is the one that arithmetic says: in each pixel the nearest surface. The grains are dealt to the ranks at random, in slabs, and to one alone."""
 import os
 
-import granular
 import numpy
+import vtkgranular as vg
 from discs import ROUNDED, Camera, black_view, color_by_id, picture
 from paraview.simple import *
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -104,7 +104,7 @@ for name, pieces in splits.items():
     expect(f"{name}_grains", display)
     expect_camera_around_spheres()
     expect_whole_if_translucent(f"{name}_translucent", display)
-    expect(f"{name}_show", granular.show(reader, view))
+    expect(f"{name}_show", vg.show(reader, view))
     Hide(reader, view)
 
 display.GrainScale = 0.5
@@ -114,7 +114,7 @@ Hide(reader, view)
 some = Threshold(reader, Scalars=["POINTS", "id"], ThresholdMethod="Between",
                  LowerThreshold=10, UpperThreshold=40)
 some.UpdatePipeline()
-expect("some", granular.show(some, view), slice(9, 40))
+expect("some", vg.show(some, view), slice(9, 40))
 Delete(some)
 
 # ---- ellipsoids and superquadrics -----------------------------------------------------------------
@@ -144,7 +144,7 @@ CENTRES, RADII, IDS = numpy.array([[0.0, 0.0, 0.0]]), numpy.array([4.0]), numpy.
 reader = OpenDataFile(write("one", [numpy.array([0])]))
 RIGHT = numpy.cross([0, 1, 0], CAMERA.position)
 RIGHT /= numpy.linalg.norm(RIGHT)
-display = granular.show(reader, view)
+display = vg.show(reader, view)
 color_by_id(display, view, 60)
 Render(view)
 CAMERA.look(view, 2.5 * RIGHT)

@@ -12,7 +12,7 @@ import numpy
 import plain_dump
 from paraview.simple import OpenDataFile
 
-import granular
+import vtkgranular as vg
 
 ATOMS, STEPS = 300, (7, 120000)
 LOW = numpy.array([-1.5, 0.25, 2.0])
@@ -187,8 +187,8 @@ def main(name):
             for end, dialects in ends.items():
                 for dialect in dialects:
                     path = f"{shape}_{len(form)}_{'_'.join(columns)}_{dialect}.{end}"
-                    granular.save(source, path, writer="GranularDumpWriter", Dialect=dialect, WriteTimeSteps=1, **form,
-                                  NumberFormat="%.17g", SortById=name == "liggghts")
+                    vg.save(source, path, writer="GranularDumpWriter", Dialect=dialect, WriteTimeSteps=1, **form,
+                            NumberFormat="%.17g", SortById=name == "liggghts")
                     for step, got in read(path, columns, shape).items():
                         largest = max(largest, compare(path, got, frames[step], columns, box))
                         count += 1

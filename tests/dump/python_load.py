@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""granular.load_plugin: the proxies without any set-up of ParaView."""
+"""vg.load_plugin: the proxies without any set-up of ParaView."""
 import os
 import subprocess
 
-import granular
+import vtkgranular as vg
 
-path = granular.load_plugin()
+path = vg.load_plugin()
 assert os.path.isfile(path), path
 from paraview.simple import *
 
@@ -14,18 +14,18 @@ reader = GranularDumpReader(
 reader.UpdatePipeline()
 assert reader.GetDataInformation().GetNumberOfPoints() == 1200
 # the client's object is the class of the package
-assert isinstance(reader.GetClientSideObject(), granular.vtkGranularDumpReader)
-assert granular.load_plugin(ns=globals()) == path
+assert isinstance(reader.GetClientSideObject(), vg.vtkGranularDumpReader)
+assert vg.load_plugin(ns=globals()) == path
 
 # ParaView's own way to load it adds no names to paraview.simple
 SCRIPT = f"""
 from paraview.simple import *
-import granular
+import vtkgranular as vg
 LoadPlugin({path!r}, ns=globals())
-reader = granular.reader({reader.FileNames[0]!r})
-assert granular.fetch(reader)["id"].size == 1200
-assert granular.history(reader, ids=7, arrays="radius")["radius"].shape == (1, 1)
-assert granular.load_plugin() == {path!r}
+reader = vg.reader({reader.FileNames[0]!r})
+assert vg.fetch(reader)["id"].size == 1200
+assert vg.history(reader, ids=7, arrays="radius")["radius"].shape == (1, 1)
+assert vg.load_plugin() == {path!r}
 """
 with open("own_way.py", "w") as file:
     file.write(SCRIPT)

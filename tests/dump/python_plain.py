@@ -3,12 +3,12 @@
 import os
 import sys
 
-import granular
+import vtkgranular as vg
 
 assert not any(name.split(".")[0] == "paraview" for name in sys.modules)
-reader = granular.vtkGranularDumpReader()
+reader = vg.vtkGranularDumpReader()
 path = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains_1000.dump")
-assert granular.vtkGranularDumpReader.CanReadFile(path)
+assert vg.vtkGranularDumpReader.CanReadFile(path)
 reader.AddFileName(path)
 reader.SetCoordinates(reader.SCALED)
 reader.Update()
@@ -30,11 +30,11 @@ assert 0 < particles.GetNumberOfPoints() < 1200
 import inspect  # noqa: E402
 import pydoc  # noqa: E402
 
-folder = os.path.dirname(granular.__file__)
-assert granular.__version__.count(".") == 2 and os.path.exists(os.path.join(folder, "py.typed"))
-assert set(granular.__all__) <= set(dir(granular)) and "reader" in granular.__all__
-for name in granular.__all__:
-    function = getattr(granular, name)
+folder = os.path.dirname(vg.__file__)
+assert vg.__version__.count(".") == 2 and os.path.exists(os.path.join(folder, "py.typed"))
+assert set(vg.__all__) <= set(dir(vg)) and "reader" in vg.__all__
+for name in vg.__all__:
+    function = getattr(vg, name)
     if inspect.isfunction(function):
         hints = inspect.signature(function)
         assert hints.return_annotation is not inspect.Signature.empty, name
@@ -45,7 +45,7 @@ stub = os.path.join(folder, "vtkGranular.pyi")
 if os.path.exists(stub):  # where VTK has its generator
     with open(stub) as file:
         text = file.read()
-    assert all(f"class {name}(" in text for name in dir(granular.vtkGranular) if name.startswith("vtkGranular"))
-page = pydoc.plain(pydoc.render_doc(granular))
-assert "granular.fetch(reader" in page.split("FUNCTIONS")[0]
-assert len(page.splitlines()) < 400, "help(granular) is longer than anybody reads"
+    assert all(f"class {name}(" in text for name in dir(vg.vtkGranular) if name.startswith("vtkGranular"))
+page = pydoc.plain(pydoc.render_doc(vg))
+assert "vg.fetch(reader" in page.split("FUNCTIONS")[0]
+assert len(page.splitlines()) < 400, "help(vtkgranular) is longer than anybody reads"

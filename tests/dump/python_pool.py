@@ -3,12 +3,12 @@
 import ctypes
 import os
 
-import granular
+import vtkgranular as vg
 
 
 def refused(limit):
     try:
-        granular.set_pool_limit(limit)
+        vg.set_pool_limit(limit)
     except ValueError as error:
         return str(limit) in str(error)
     return False
@@ -21,23 +21,23 @@ def seen_by_the_readers():
 
 
 os.environ.pop("GRANULAR_POOL_MIB", None)
-assert granular.pool_limit() is None
+assert vg.pool_limit() is None
 for mib in (512, 0):
-    granular.set_pool_limit(mib)
-    assert granular.pool_limit() == mib
+    vg.set_pool_limit(mib)
+    assert vg.pool_limit() == mib
     assert seen_by_the_readers() == str(mib).encode()
 for wrong in (-1, 0.5):
     assert refused(wrong)
-assert granular.pool_limit() == 0
-reader = granular.vtkGranularDumpReader()
+assert vg.pool_limit() == 0
+reader = vg.vtkGranularDumpReader()
 reader.AddFileName(os.path.join(os.environ["GRANULAR_DATA"], "good", "grains_1000.dump"))
 reader.Update()
 assert reader.GetOutput().GetNumberOfPoints() == 1200
-granular.set_pool_limit(None)
-assert granular.pool_limit() is None and seen_by_the_readers() is None
+vg.set_pool_limit(None)
+assert vg.pool_limit() is None and seen_by_the_readers() is None
 os.environ["GRANULAR_POOL_MIB"] = "much"
 try:
-    granular.pool_limit()
+    vg.pool_limit()
 except ValueError:
     pass
 else:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""granular.reader and granular.update: the reader that fits, and errors as exceptions, each once."""
+"""vg.reader and vg.update: the reader that fits, and errors as exceptions, each once."""
 import gc
 import os
 import subprocess
 import sys
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -48,53 +48,53 @@ for path, kind in ((good("grains.dump"), "GranularDumpReader"), (good("grains_10
                    (good("decomposition_1000.vtk"), "GranularDecompositionReader"), (good("euler_1000.vtk"), "GranularEulerReader"),
                    (os.path.join(samples, "restart/fibres.40000.restart"), "GranularRestartReader"),
                    (os.path.join(samples, "bonds/chain.data"), "GranularDataFileReader")):
-    reader = granular.reader(path)
+    reader = vg.reader(path)
     assert reader.GetXMLName() == kind, (path, reader.GetXMLName())
     Delete(reader)
 
 # patterns as the dump command has them, and lists of them; a step of 2e-5
-reader = granular.reader(good("euler_*.vtk"), dt=2e-5)
+reader = vg.reader(good("euler_*.vtk"), dt=2e-5)
 assert list(reader.TimestepValues) == [0.02, 0.04, 0.06, 0.08], reader.TimestepValues
-reader = granular.reader(good("pieces_*.%.dump"), SortById=1, Stride=7)
+reader = vg.reader(good("pieces_*.%.dump"), SortById=1, Stride=7)
 assert len(reader.FileNames) == 12 and len(reader.TimestepValues) == 3
 assert reader.SortById == 1 and reader.Stride == 7
-reader = granular.reader([good("ortho_000050.dump.gz"), good("ortho_0001*.dump")])
+reader = vg.reader([good("ortho_000050.dump.gz"), good("ortho_0001*.dump")])
 assert list(reader.TimestepValues) == [50, 100]
 assert GetSources()[("ortho_000050.dump.gz", str(reader.GetGlobalID()))] == reader  # it is in the pipeline browser
 
 # ---- errors ------------------------------------------------------------------------------------
 before = len(GetSources())
 broken, header = write("broken.dump", BAD), write("header.dump", "ITEM: TIMESTEP\nx\n")
-refused(lambda: granular.reader(header), RuntimeError, f"{header}:2: expected an integer timestep, got 'x'")
-refused(lambda: granular.reader("gone.dump"), FileNotFoundError, "no such file: gone.dump")
-refused(lambda: granular.reader("gone_*.dump"), FileNotFoundError, "gone_*.dump")
-refused(lambda: granular.reader([]), ValueError, "no files")
-refused(lambda: granular.reader(broken, NoProperty=1), AttributeError, "NoProperty")
+refused(lambda: vg.reader(header), RuntimeError, f"{header}:2: expected an integer timestep, got 'x'")
+refused(lambda: vg.reader("gone.dump"), FileNotFoundError, "no such file: gone.dump")
+refused(lambda: vg.reader("gone_*.dump"), FileNotFoundError, "gone_*.dump")
+refused(lambda: vg.reader([]), ValueError, "no files")
+refused(lambda: vg.reader(broken, NoProperty=1), AttributeError, "NoProperty")
 assert len(GetSources()) == before  # what failed is not left in the pipeline
 message = f"{broken}:10: column 'y': expected a number, got 'zero'"
-reader = granular.reader(broken)
-refused(lambda: granular.update(reader), RuntimeError, message)
-refused(lambda: granular.update(reader), RuntimeError, message)  # again
-refused(lambda: granular.update(OutputPort(reader, 1)), RuntimeError, message)
+reader = vg.reader(broken)
+refused(lambda: vg.update(reader), RuntimeError, message)
+refused(lambda: vg.update(reader), RuntimeError, message)  # again
+refused(lambda: vg.update(OutputPort(reader, 1)), RuntimeError, message)
 clip = Clip(Input=Calculator(Input=reader))
-refused(lambda: granular.update(clip), RuntimeError, message)  # through filters of ParaView's
+refused(lambda: vg.update(clip), RuntimeError, message)  # through filters of ParaView's
 reader.FileNames = [good("grains_1000.dump")]
-granular.update(clip)  # and it is forgotten
+vg.update(clip)  # and it is forgotten
 assert reader.GetPropertyValue("ErrorMessage") == ""
 average = GranularEulerAverage(Input=reader, CellsBy="CellSizeRelative")
-refused(lambda: granular.update(average), RuntimeError, "expected points as output for CellSizeRelative")
+refused(lambda: vg.update(average), RuntimeError, "expected points as output for CellSizeRelative")
 
 # a second argument that is no time of a step
-refused(lambda: granular.reader(good("grains.dump"), "Contacts"), TypeError, "dt", "'Contacts'")
+refused(lambda: vg.reader(good("grains.dump"), "Contacts"), TypeError, "dt", "'Contacts'")
 
 # times
-series = granular.reader(good("grains.dump"))
-granular.update(series, 2000)
+series = vg.reader(good("grains.dump"))
+vg.update(series, 2000)
 assert series.FieldData["timestep"].GetRange() == (2000, 2000)
 
 # no proxy waits for the garbage collector, which may come while ranks update together, and would then have them wait for ever
-for use in (lambda: granular.update(clip), lambda: granular.fetch(clip), lambda: granular.save(clip, "kept.dump"),
-            lambda: granular.save(clip, "kept.vtu"), lambda: granular.reader(good("grains_1000.dump"))):
+for use in (lambda: vg.update(clip), lambda: vg.fetch(clip), lambda: vg.save(clip, "kept.dump"),
+            lambda: vg.save(clip, "kept.vtu"), lambda: vg.reader(good("grains_1000.dump"))):
     gc.collect()
     gc.disable()
     use()

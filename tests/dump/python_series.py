@@ -6,12 +6,12 @@ import stat
 import warnings
 from fractions import Fraction
 
-import granular
+import vtkgranular as vg
 
 
 def fails(kind, text, *args, **options):
     try:
-        granular.write_series(*args, **options)
+        vg.write_series(*args, **options)
     except kind as error:
         assert text in str(error), (text, str(error))
     else:
@@ -27,7 +27,7 @@ for step in (2000, 0, 10000, 1000):
     with open(files[-1], "w") as file:
         file.write(solid.format(step / 1000))
 
-path = granular.write_series(files, 2e-5)
+path = vg.write_series(files, 2e-5)
 assert path == "post/mesh2.stl.series", path
 with open(path) as file:
     series = json.load(file)
@@ -38,7 +38,7 @@ os.umask(umask)
 assert stat.S_IMODE(os.stat(path).st_mode) == 0o666 & ~umask
 
 # names are relative to the series file, wherever that is
-other = granular.write_series(files, 1, "run.stl.series")
+other = vg.write_series(files, 1, "run.stl.series")
 with open(other) as file:
     assert json.load(file)["files"][1] == {"name": "post/mesh2_1000.stl", "time": 1000}
 assert not [name for name in os.listdir(".") + os.listdir("post") if name.endswith(".tmp")]
@@ -49,7 +49,7 @@ def times(steps, dt):
     for name in names:
         with open(name, "w") as file:
             file.write("")
-    with open(granular.write_series(names, dt)) as file:
+    with open(vg.write_series(names, dt)) as file:
         return [entry["time"] for entry in json.load(file)["files"]]
 
 
@@ -65,7 +65,7 @@ fails(ValueError, "dt must give finite times, got 1e+306 for step 1000", files, 
 for name in ("wall.0", "wall.50"):
     with open(name, "w") as file:
         file.write("")
-assert granular.write_series(["wall.50", "wall.0"], 1) == "wall.series"
+assert vg.write_series(["wall.50", "wall.0"], 1) == "wall.series"
 
 fails(ValueError, "no files", [], 1)
 fails(ValueError, "no step number in the file name: post/mesh.stl", ["post/mesh.stl"], 1)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""granular.show: the spheres in the picture have the radii of the file, to the pixel."""
+"""vg.show: the spheres in the picture have the radii of the file, to the pixel."""
 import math
 import os
 import subprocess
 import sys
 
-import granular
 import numpy
+import vtkgranular as vg
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -17,7 +17,7 @@ PIXELS = 50  # a unit of length
 
 view = CreateRenderView()
 if sys.argv[1:] == ["without a display"]:
-    granular.show(Sphere(), view)
+    vg.show(Sphere(), view)
     Render(view)
     sys.exit()
 view.ViewSize = [800, 800]
@@ -68,12 +68,12 @@ display.GrainScale = 0.5
 expect(display, 1.5, 0.25)
 
 # opened our way
-display = granular.show(reader, view)
+display = vg.show(reader, view)
 assert display.Representation == "Grains"
 expect(display, 3, 0.5)
-expect(granular.show(reader, view, radius=2), 2, 2)
-expect(granular.show(reader), 3, 0.5)
-granular.show(reader, color="type")
+expect(vg.show(reader, view, radius=2), 2, 2)
+expect(vg.show(reader), 3, 0.5)
+vg.show(reader, color="type")
 assert display.ColorArrayName[1] == "type"
 Hide(reader, view)
 
@@ -86,7 +86,7 @@ assert box.Representation == "Wireframe", box.Representation
 Hide(OutputPort(plain, 1), view)
 points.PointSize = 10
 expect(points, *2 * [5 / PIXELS])
-expect(granular.show(plain, view), 2, 2)
+expect(vg.show(plain, view), 2, 2)
 display = Show(plain, view)
 expect(display, 2, 2)  # as it was: one radius for all, of no array
 display.GrainRadiusArray = "radius"
@@ -99,7 +99,7 @@ Hide(plain, view)
 
 # radii are lengths, scaled coordinates are not
 reader.Coordinates = "Scaled"
-display = granular.show(reader, view)
+display = vg.show(reader, view)
 assert display.GrainRadiusArray == "" and display.GrainScale < 1
 Delete(reader)
 
@@ -112,9 +112,9 @@ for other, back, middle in (({"Coordinates": "Scaled"}, {"Coordinates": "Absolut
     display = Show(reader, view)
     display.PointSize = 10
     expect(display, 3, 0.5)
-    granular.set_properties(reader, **other)
+    vg.set_properties(reader, **other)
     expect(display, *2 * [5 / PIXELS], middle)
-    granular.set_properties(reader, **back)
+    vg.set_properties(reader, **back)
     expect(display, 3, 0.5)
     Delete(reader)
 
@@ -136,7 +136,7 @@ grown = HEADER.replace("\n2\n", "\n0\n") + "id x y z radius\n" + HEADER.replace(
     "TIMESTEP\n0", "TIMESTEP\n10") + "id x y z radius\n1 -4 0 0 3\n2 4 0 0 0.5\n"
 with open("grown.dump", "w") as file:
     file.write(grown)
-for way in (granular.show, Show):
+for way in (vg.show, Show):
     view.ViewTime = 0
     particles = OpenDataFile(os.path.abspath("grown.dump"))
     display = way(particles, view)
@@ -149,7 +149,7 @@ for way in (granular.show, Show):
 # colours can be chosen before there is anything to colour
 view.ViewTime = 0
 particles = OpenDataFile(os.path.abspath("grown.dump"))
-display = granular.show(particles, view, color="radius")
+display = vg.show(particles, view, color="radius")
 view.ViewTime = 10
 Render(view)
 assert list(display.ColorArrayName) == ["POINTS", "radius"]
@@ -160,20 +160,20 @@ typed = HEADER.replace("\n2\n", "\n0\n") + "id type x y z radius\n" + HEADER.rep
 with open("typed.dump", "w") as file:
     file.write(typed)
 view.ViewTime = 0
-for particles in (granular.reader("typed.dump"), Calculator(Input=granular.reader("typed.dump"))):
-    display = granular.show(particles, view, color="type", box=True)
+for particles in (vg.reader("typed.dump"), Calculator(Input=vg.reader("typed.dump"))):
+    display = vg.show(particles, view, color="type", box=True)
     colours = GetColorTransferFunction("type")
     assert list(colours.Annotations) == ["2", "type 2", "3", "type 3", "4", "type 4"], colours.Annotations
     assert len(colours.IndexedColors) == 9 and colours.InterpretValuesAsCategories == 1
     assert particles.GetDataInformation().GetNumberOfPoints() == 0  # the frame that is shown is the one that was shown
-    granular.show(particles, view, color="radius")
+    vg.show(particles, view, color="radius")
     points = list(GetColorTransferFunction("radius").RGBPoints)
     assert (points[0], points[-4]) == (0.5, 3), points
 
 # an array that is not there, neither in this frame nor in the last one
-for source in (granular.reader("typed.dump"), granular.reader("two.dump")):
+for source in (vg.reader("typed.dump"), vg.reader("two.dump")):
     try:
-        granular.show(source, view, color="v")
+        vg.show(source, view, color="v")
         raise AssertionError("a colour of nothing")
     except ValueError as error:
         assert str(error) == "expected a point array to colour by, of id, radius, type, got 'v'", error
@@ -181,19 +181,19 @@ for source in (granular.reader("typed.dump"), granular.reader("two.dump")):
 # bonds and boxes of sources, through filters; and what has none
 packing = GranularPackingSource(Arrangement="Chain", NumberOfGrains=5, BondFactor=1)
 before = len(view.Representations)
-granular.show(Calculator(Input=packing), view, box=True, bonds=True)
+vg.show(Calculator(Input=packing), view, box=True, bonds=True)
 assert len(view.Representations) == before + 3, len(view.Representations) - before
 for wanted in ("box", "bonds"):
     try:
-        granular.show(Sphere(), view, **{wanted: True})
+        vg.show(Sphere(), view, **{wanted: True})
         raise AssertionError(f"a sphere has {wanted}")
     except ValueError as error:
         assert wanted.capitalize() in str(error), error
 
 # a legend, and none unless wanted
-typed = granular.reader("typed.dump")
+typed = vg.reader("typed.dump")
 for wanted in (False, True):
-    display = granular.show(typed, view, color="type", legend=wanted)
+    display = vg.show(typed, view, color="type", legend=wanted)
     assert bool(display.IsScalarBarVisible(view)) == wanted
 
 # without a display a message instead of a crash, or a picture where ParaView can do without

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""granular.load_state: a state file opens again after its folder was moved, and says which file is gone."""
+"""vg.load_state: a state file opens again after its folder was moved, and says which file is gone."""
 import os
 import shutil
 from pathlib import Path
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 good = Path(os.environ["GRANULAR_DATA"]) / "good"
@@ -13,8 +13,8 @@ for folder in ("first", "second"):
 os.makedirs("first/post")
 for step in (0, 1000, 2000):
     shutil.copy(good / f"grains_{step}.dump", "first/post")
-reader = granular.reader("first/post/grains_*.dump", dt=2e-5)
-granular.show(reader, color="radius", box=True)
+reader = vg.reader("first/post/grains_*.dump", dt=2e-5)
+vg.show(reader, color="radius", box=True)
 GranularCompare(Input=reader)
 CreateExtractor("GranularDump", reader)
 SaveState("first/run.pvsm")
@@ -29,9 +29,9 @@ Path("first/run.pvsm").write_bytes(state)  # a state of the time when there were
 def loaded():
     """The reader that a state brings, alone."""
     ResetSession()
-    granular.load_state("second/run.pvsm" if os.path.exists("second") else "first/run.pvsm")
+    vg.load_state("second/run.pvsm" if os.path.exists("second") else "first/run.pvsm")
     (_, source), = ((name, source) for name, source in GetSources().items() if source.GetXMLName() == "GranularDumpReader")
-    granular.update(source, 0.04)
+    vg.update(source, 0.04)
     assert source.GetDataInformation().GetNumberOfPoints() > 100 and source.TimestepSize == 2e-5
     return source
 

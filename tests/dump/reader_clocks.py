@@ -4,7 +4,7 @@ import os
 import shutil
 from fractions import Fraction
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -51,7 +51,7 @@ for step in STEPS:
     with open(f"mesh_{step}.stl", "w") as file:
         file.write("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
                    "endsolid a\n")
-mesh = OpenDataFile(granular.write_series([f"mesh_{step}.stl" for step in STEPS], dt))
+mesh = OpenDataFile(vg.write_series([f"mesh_{step}.stl" for step in STEPS], dt))
 assert list(mesh.TimestepValues) == exact
 scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
@@ -62,9 +62,9 @@ for step in (3, 6, 7, 33, 100):
     for reader in readers[:2]:
         reader.UpdatePipeline(exact[step])
         assert reader.FieldData["timestep"].GetRange() == (step, step)
-granular.save(readers[1], "again.dump", WriteTimeSteps=1, Dialect="LAMMPS", WriteTime=1)
+vg.save(readers[1], "again.dump", WriteTimeSteps=1, Dialect="LAMMPS", WriteTime=1)
 assert times(os.path.abspath("again.dump"))[1] == exact
 seventh = times(write("seventh.dump", (0, 1, 5)), TimestepSize=1 / 7)[0]
-granular.save(seventh, "again.dump", WriteTimeSteps=1, Dialect="LAMMPS", WriteTime=1)
+vg.save(seventh, "again.dump", WriteTimeSteps=1, Dialect="LAMMPS", WriteTime=1)
 assert times(os.path.abspath("again.dump"))[1] == list(seventh.TimestepValues)
 assert seventh.TimestepValues[1] == 1 / 7 != float(f"{1 / 7:.16g}")  # 17 digits

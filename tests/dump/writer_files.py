@@ -3,8 +3,8 @@
 import gzip
 import os
 
-import granular
 import plain_dump
+import vtkgranular as vg
 import writing
 from paraview.simple import *
 from writing import check_nothing_left, check_properties, check_refused, enter_empty_folder, good
@@ -33,7 +33,7 @@ def open_all(*names, **properties):
 
 def save_and_compare(name, out, **form):
     reader = open_all(name)
-    granular.save(reader, out, WriteTimeSteps=1, **form)
+    vg.save(reader, out, WriteTimeSteps=1, **form)
     assert content(out) == content(good(name)), (name, out, form)
     Delete(reader)
 
@@ -62,7 +62,7 @@ for box in ("ortho", "tri"):
 
 # LIGGGHTS writes a chunk a process, this one as few as can be: the rows are the same
 reader = open_all("grains.bin", ColumnNames=PARTICLES)
-granular.save(reader, "a.bin", WriteTimeSteps=1, **LIGGGHTS)
+vg.save(reader, "a.bin", WriteTimeSteps=1, **LIGGGHTS)
 for mine, other in zip(plain_dump.read_binary("a.bin", PARTICLES),
                        plain_dump.read_binary(good("grains.bin"), PARTICLES), strict=True):
     assert (mine.timestep, mine.bounds.tolist()) == (other.timestep, other.bounds.tolist())
@@ -71,13 +71,13 @@ for mine, other in zip(plain_dump.read_binary("a.bin", PARTICLES),
 # ---- what is asked for ---------------------------------------------------------------------------
 
 reader = open_all("grains_1000.dump")
-granular.save(reader, "a.dump", Columns="radius id image")
+vg.save(reader, "a.dump", Columns="radius id image")
 frame, other = plain_dump.read("a.dump")[0], plain_dump.read(good("grains_1000.dump"))[0]
 assert list(frame.columns) == ["radius", "id", "ix", "iy", "iz"]
 assert all(frame.columns[name] == other.columns[name] for name in frame.columns)
-granular.save(reader, "a.dump", Columns="id x", NumberFormat="%.5g")
-granular.save(reader, "b.dump", Columns="id x", NumberFormat="shortest")
-granular.save(reader, "c.dump", Columns="id x", NumberFormat="%.17g")
+vg.save(reader, "a.dump", Columns="id x", NumberFormat="%.5g")
+vg.save(reader, "b.dump", Columns="id x", NumberFormat="shortest")
+vg.save(reader, "c.dump", Columns="id x", NumberFormat="%.17g")
 shortest, exact = plain_dump.read("b.dump")[0], plain_dump.read("c.dump")[0]
 assert (shortest.numbers("x") == exact.numbers("x")).all()
 assert sum(map(len, shortest.columns["x"])) < sum(map(len, exact.columns["x"]))
@@ -94,17 +94,17 @@ for name in ("a.dump", "a.lammpstrj", "a.dump.gz", "a.lammpstrj.gz"):
 SaveData("a.dump.zst", particles, WriteTimeSteps=1, **LIGGGHTS)
 again = GranularDumpReader(FileNames=[os.path.abspath("a.dump.zst")])
 again.PointArrayStatus = list(again.GetProperty("PointArrayStatus").Available)
-granular.save(again, "again.dump", WriteTimeSteps=1, **LIGGGHTS)
+vg.save(again, "again.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert content("again.dump") == whole
 for name in ("dump.1000", "x.liggghts", "no_ending", "with blank.dump"):
-    granular.save(particles, name, writer="GranularDumpWriter", WriteTimeSteps=1, **LIGGGHTS)
+    vg.save(particles, name, writer="GranularDumpWriter", WriteTimeSteps=1, **LIGGGHTS)
     assert content(name) == whole, name
 
-granular.save(particles, "step_*.dump", WriteTimeSteps=1, **LIGGGHTS)
+vg.save(particles, "step_*.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert [content(f"step_{step}.dump") for step in (0, 1000, 2000)] == frames
-granular.save(particles, "process_%.dump", WriteTimeSteps=1, **LIGGGHTS)
+vg.save(particles, "process_%.dump", WriteTimeSteps=1, **LIGGGHTS)
 assert content("process_0.dump") == whole
-granular.save(particles, "both_*.%.dump.gz", WriteTimeSteps=1, **LIGGGHTS)
+vg.save(particles, "both_*.%.dump.gz", WriteTimeSteps=1, **LIGGGHTS)
 assert [content(f"both_{step}.0.dump.gz") for step in (0, 1000, 2000)] == frames
 
 # ---- the time that is shown ------------------------------------------------------------------------
@@ -125,7 +125,7 @@ for source in (fresh, some):
     assert steps("a.dump") == [0, 1000, 2000]
     SaveData("a.dump", source)
     assert steps("a.dump") == [1000]
-    granular.save(source, "step_*.dump")
+    vg.save(source, "step_*.dump")
     assert steps("step_1000.dump") == [1000]
 
 # ---- properties ------------------------------------------------------------------------------------

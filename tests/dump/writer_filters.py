@@ -2,9 +2,9 @@
 """What filters make of particles is written as it is: which ones, where they are, what they have."""
 import os
 
-import granular
 import numpy
 import plain_dump
+import vtkgranular as vg
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -22,7 +22,7 @@ def last(name):
 def written(source, time=None, **properties):
     """The frame that is written of a source."""
     source.UpdatePipeline() if time is None else source.UpdatePipeline(time)
-    granular.save(source, "out.dump", **EXACT, **properties)
+    vg.save(source, "out.dump", **EXACT, **properties)
     frame, = plain_dump.read("out.dump")
     return frame
 

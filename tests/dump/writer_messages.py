@@ -2,8 +2,8 @@
 """What ParaView says of a writer: warnings of what is made up, one error of what cannot be written."""
 import os
 
-import granular
 import plain_dump
+import vtkgranular as vg
 from paraview.simple import *
 
 # ---- no ids, no box, no timestep: all are made, and said ---------------------------------------------
@@ -45,7 +45,7 @@ for source, path, properties in (
         (particles, "messages.dump", {"WriteUnits": 1})):
     SaveData(path, source, **properties)
     try:
-        granular.save(source, path, **properties)
+        vg.save(source, path, **properties)
     except RuntimeError as error:
         print(error)
     else:

@@ -2,7 +2,7 @@
 """A client of a server of two ranks saves: the server writes, and the client hears how it went."""
 import os
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 from ranks_server import connected
 
@@ -19,21 +19,21 @@ with connected() as server:
         name = os.path.abspath(f"{mode}.dump")
         SaveData(name, reader, WriteTimeSteps=1, Dialect="LIGGGHTS", ParallelMode=mode)
         assert content(name) == content(source), mode
-        granular.save(reader, os.path.abspath("dump.grains"), WriteTimeSteps=1, Dialect="LIGGGHTS",
-                      ParallelMode=mode)
+        vg.save(reader, os.path.abspath("dump.grains"), WriteTimeSteps=1, Dialect="LIGGGHTS",
+                ParallelMode=mode)
         assert content("dump.grains") == content(source), mode
     reader.UpdatePipeline(2000)
-    granular.save(reader, os.path.abspath("part_%.dump"))
+    vg.save(reader, os.path.abspath("part_%.dump"))
     assert sorted(name for name in os.listdir(".") if name.startswith("part_")) == \
         ["part_0.dump", "part_1.dump"]
     try:
-        granular.save(reader, "/nowhere/gone.dump")
+        vg.save(reader, "/nowhere/gone.dump")
     except RuntimeError as error:
         assert "/nowhere/gone.dump: cannot write" in str(error), error
     else:
         raise AssertionError("nothing was raised")
     server.wait_for(r"/nowhere/gone\.dump: cannot write: No such file or directory \(on rank 0 of 2\)")
-    granular.save(reader, os.path.abspath("again.dump"))
+    vg.save(reader, os.path.abspath("again.dump"))
     assert b"\n2000\n" in content("again.dump")
     Delete(reader)
     del reader

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Filters tell once, whatever the number of frames, that an array they were asked for does not exist."""
-import granular
+import vtkgranular as vg
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
@@ -63,10 +63,10 @@ def said_over_frames(filter_):
     return filter_.said
 
 
-reader = granular.vtkGranularDumpReader()
+reader = vg.vtkGranularDumpReader()
 reader.AddFileName("particles.dump")
 for kind, inputs, properties, names in FILTERS:
-    filter_ = getattr(granular, f"vtkGranular{kind}")()
+    filter_ = getattr(vg, f"vtkGranular{kind}")()
     filter_.SetInputConnection(reader.GetOutputPort())
     for port, data in inputs.items():
         filter_.SetInputDataObject(port, data)

@@ -9,8 +9,8 @@ from contact_sums import arrays_of, local_of, reader_of
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkTable
 
-import granular
 import plain_contacts as plain
+import vtkgranular as vg
 
 COUNTS, SIZE = (6, 6, 9), 6 * 6 * 9
 DEFAULT = ["v_avg", "volumefraction", "radius", "pressure", "sigma", "tau"]
@@ -37,7 +37,7 @@ def warns(averages, patterns, **properties):
 bed = Averages("periodic_bed", CellCounts=COUNTS)
 everything = bed.update()
 assert list(everything) == ALL
-selection = granular.vtkGranularEulerAverage().GetArraySelection()
+selection = vg.vtkGranularEulerAverage().GetArraySelection()
 assert [selection.GetArrayName(i) for i in range(selection.GetNumberOfArrays())] == ALL
 assert [name for name in ALL if selection.ArrayIsEnabled(name)] == DEFAULT
 for on in ([name] for name in ALL):
@@ -97,7 +97,7 @@ for kind in (GAUSSIAN, LUCY, HEAVISIDE):
         expected = density_by_kernel(kind, 0.008, bounds == INSIDE)
         assert abs(found - expected).max() < 1e-12 * expected.max(), (kind, bounds)
 # 0, the default, is the largest diameter; with Centre and Overlap the width does not matter
-assert granular.vtkGranularEulerAverage().GetKernelWidth() == 0
+assert vg.vtkGranularEulerAverage().GetKernelWidth() == 0
 for kind in (GAUSSIAN, LUCY, HEAVISIDE):
     widths = [bed.update(Weights=kind, KernelWidth=width) for width in (0, 2 * run.particles.radius.max(), 0.0059)]
     assert all(widths[0][name].tobytes() == widths[1][name].tobytes() for name in ALL)
@@ -282,14 +282,14 @@ assert len(table["position"]) == 9 and table["sigma_contact"].any()
 # ---- files ----------------------------------------------------------------------------------------------------------------
 
 for kind in (IMAGE, POINTS):
-    writer = granular.vtkGranularEulerWriter()
+    writer = vg.vtkGranularEulerWriter()
     writer.SetController(None)
     bed.output(OutputType=kind, Weights=GAUSSIAN)
     writer.SetInputConnection(bed.filter.GetOutputPort())
     writer.SetFileName(f"bed_{kind}.vtk")
     writer.SetDialect(1)
     assert writer.Write() == 1
-    reader = granular.vtkGranularEulerReader()
+    reader = vg.vtkGranularEulerReader()
     reader.SetController(None)
     reader.AddFileName(f"bed_{kind}.vtk")
     reader.Update()

@@ -3,7 +3,7 @@
 import os
 
 import all_ranks
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 from vtkmodules.vtkCommonCore import vtkIntArray
 from vtkmodules.vtkParallelCore import vtkCommunicator
@@ -30,7 +30,7 @@ average.RadiusArray = "no_radius"
 assert cells_of(average) == 0
 average.RadiusArray = "radius"
 assert cells_of(average) == 1000
-granular.set_properties(average, CellsBy="CellSize", CellSize=[0.02, 0.02, 0.02])
+vg.set_properties(average, CellsBy="CellSize", CellSize=[0.02, 0.02, 0.02])
 assert cells_of(average) == 0
 average.Bounds = [-0.05, 0.05, -0.05, 0.05, 0, 0.15]
 assert cells_of(average) == 5 * 5 * 7
@@ -42,12 +42,12 @@ average.CellsBy = "CellSizeRelative"
 assert cells_of(average) == 0
 average.Output = "Points"
 assert cells_of(average) == 112
-granular.set_properties(average, CellsBy="CellCounts", CellCounts=[30000, 30000, 1000])  # more than there is memory for
+vg.set_properties(average, CellsBy="CellCounts", CellCounts=[30000, 30000, 1000])  # more than there is memory for
 assert cells_of(average) == 0
 average.Output = "ImageData"
 assert cells_of(average) == 0
 for counts, radius in (([6, 6, 6], "radius"), ([6, 6, 6], "no_radius"), ([12, 4, 9], "radius"), ([5, 4, 3], "radius")):
-    granular.set_properties(average, CellCounts=counts, RadiusArray=radius)  # each rank has its own cells, whatever was before
+    vg.set_properties(average, CellCounts=counts, RadiusArray=radius)  # each rank has its own cells, whatever was before
     expected = counts[0] * counts[1] * counts[2] if radius == "radius" else 0
     assert cells_of(average) == expected, counts
 

@@ -3,10 +3,10 @@
 import os
 import re
 
-import granular
 import numpy
 import plain_average
 import plain_dump
+import vtkgranular as vg
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkMultiBlockDataSet, vtkPolyData
@@ -34,13 +34,13 @@ def listen(algorithm):
 
 
 def reader_of(name):
-    reader = listen(granular.vtkGranularDumpReader())
+    reader = listen(vg.vtkGranularDumpReader())
     reader.AddFileName(os.path.abspath(name))
     return reader
 
 
 def filter_of(source, **properties):
-    average = listen(granular.vtkGranularEulerAverage())
+    average = listen(vg.vtkGranularEulerAverage())
     if source.IsA("vtkDataObject"):
         average.SetInputData(source)
     else:

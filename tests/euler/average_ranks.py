@@ -3,8 +3,8 @@
 import os
 
 import all_ranks
-import granular
 import numpy
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import (vtkCellDataToPointData, vtkContourFilter, vtkMassProperties,
@@ -28,7 +28,7 @@ def arrays(output):
 
 def alone(time, **properties):
     """The same by the classes, in this process without the others."""
-    reader, average = granular.vtkGranularDumpReader(), granular.vtkGranularEulerAverage()
+    reader, average = vg.vtkGranularDumpReader(), vg.vtkGranularEulerAverage()
     reader.SetController(None)
     average.SetController(None)
     reader.AddFileName(dump)
@@ -84,7 +84,7 @@ averaged = GranularEulerAverage(Input=particles, CellCounts=[8, 8, 12])
 smooth = CellDatatoPointData(Input=averaged)
 level = Contour(Input=smooth, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.1])
 cut = Slice(Input=averaged, SliceType="Plane")
-granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+vg.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
 sums = {proxy: IntegrateVariables(Input=proxy) for proxy in (averaged, level, cut)}
 for integral in sums.values():
     integral.UpdatePipeline(2000)
@@ -113,9 +113,9 @@ if rank == 0 and not all_ranks.symmetric:
 for output in KINDS:
     averaged.Output = output
     averaged.UpdatePipeline(2000)
-    granular.save(averaged, f"{output}.euler")
+    vg.save(averaged, f"{output}.euler")
     if rank == 0:
-        lone = granular.vtkGranularEulerWriter()
+        lone = vg.vtkGranularEulerWriter()
         lone.SetController(None)
         lone.SetInputData(alone(2000, CellCounts=[8, 8, 12], Output=output))
         lone.SetFileName(f"alone_{output}.euler")
@@ -127,8 +127,8 @@ for output in KINDS:
 
 if all_ranks.symmetric:
     Delete(cut)
-    algorithm = granular.vtkGranularEulerAverage()
-    reader = granular.vtkGranularDumpReader()
+    algorithm = vg.vtkGranularEulerAverage()
+    reader = vg.vtkGranularDumpReader()
     reader.AddFileName(dump)
     algorithm.SetInputConnection(reader.GetOutputPort())
     algorithm.SetCellCounts(7, 5, 9)

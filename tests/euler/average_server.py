@@ -2,8 +2,8 @@
 """A client of a server of two ranks averages, slices and saves; what goes wrong is said and passes."""
 import os
 
-import granular
 import plain_euler
+import vtkgranular as vg
 from paraview.simple import *
 from ranks_server import connected
 
@@ -19,13 +19,13 @@ with connected() as server:
         assert average.GetDataInformation().GetNumberOfCells() == 112
         arrays = average.PointData if output == "Points" else average.CellData
         assert abs(arrays["volumefraction"].GetRange()[1] - theirs["volumefraction"].max()) < 5.001e-7
-        granular.save(average, os.path.abspath("averaged_*.euler"))
+        vg.save(average, os.path.abspath("averaged_*.euler"))
         written = plain_euler.read("averaged_2000.euler")
         for name in ("centres", "volumefraction", "radius"):  # the last of six decimals
             assert abs(written[name] - theirs[name]).max() < 1.001e-6, (output, name)
         os.remove("averaged_2000.euler")
     cut = Slice(Input=average, SliceType="Plane")
-    granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+    vg.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
     cut.UpdatePipeline(2000)
     assert cut.GetDataInformation().GetNumberOfCells() >= 28
     average.RadiusArray = "no_radius"

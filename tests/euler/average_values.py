@@ -2,11 +2,11 @@
 """Averages of the grains of a real run: against numpy, LIGGGHTS' own files, and sums that must come out."""
 import os
 
-import granular
 import numpy
 import plain_average
 import plain_dump
 import plain_euler
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
@@ -86,13 +86,13 @@ for step, rows in frames.items():
 # ---- an image has the same values -----------------------------------------------------------------------------
 
 _, points = values(centred, 2000)
-granular.set_properties(centred, Output="ImageData", CellsBy="CellCounts", CellCounts=[4, 4, 7])
+vg.set_properties(centred, Output="ImageData", CellsBy="CellCounts", CellCounts=[4, 4, 7])
 output, found = values(centred, 2000)
 assert output.IsA("vtkImageData") and output.GetExtent() == (0, 4, 0, 4, 0, 7)
 assert numpy.allclose(output.GetBounds(), [-.05, .05, -.05, .05, 0, .15], rtol=0, atol=1e-16)
 same(found, points, "image")
 assert centred.GetDataInformation().GetNumberOfCells() == 112
-granular.set_properties(centred, CellsBy="CellSize", CellSize=[0.021, 0.0249, 0.021], Bounds=[-.05, .05, -.05, .05, 0, .15])
+vg.set_properties(centred, CellsBy="CellSize", CellSize=[0.021, 0.0249, 0.021], Bounds=[-.05, .05, -.05, .05, 0, .15])
 output, found = values(centred, 2000)
 assert output.GetExtent() == (0, 4, 0, 4, 0, 7)
 same(found, points, "size")
@@ -115,14 +115,14 @@ for axis in range(3):
     for count in (1, 7, 100):
         counts = [1, 1, 1]
         counts[axis] = count
-        granular.set_properties(overlap, CellCounts=counts, Bounds=high)
+        vg.set_properties(overlap, CellCounts=counts, Bounds=high)
         _, found = values(overlap, 2000)
         shares = plain_average.by_slabs(frames[2000], axis, high[2 * axis], high[2 * axis + 1], count, axis < 2)
         volume = 0.1 * 0.1 * 0.17 / count
         check(found, plain_average.values(frames[2000], shares, count, volume), (axis, count), 1e-10)
 
 # cells of cells: what is in eight of them is in their block
-granular.set_properties(overlap, CellCounts=[16, 14, 20])
+vg.set_properties(overlap, CellCounts=[16, 14, 20])
 _, fine = values(overlap, 2000)
 overlap.CellCounts = [8, 7, 10]
 _, coarse = values(overlap, 2000)
@@ -133,12 +133,12 @@ assert abs(phi - coarse["volumefraction"].ravel()).max() < 1e-14
 solid = 4 / 3 * numpy.pi * (frames[2000]["radius"]**3).sum()
 integral = IntegrateVariables(Input=overlap)
 for periodic in ("Boundary", "None"):
-    granular.set_properties(overlap, Periodic=periodic, CellCounts=[17, 13, 11], Bounds=high)
+    vg.set_properties(overlap, Periodic=periodic, CellCounts=[17, 13, 11], Bounds=high)
     _, found = values(integral, 2000)
     missing = 1 - found["volumefraction"][0, 0] / solid
     assert abs(found["Volume"][0, 0] - 0.1 * 0.1 * 0.17) < 1e-15
     assert abs(missing) < 1e-12 if periodic == "Boundary" else 0.001 < missing < 0.1, (periodic, missing)
-granular.set_properties(overlap, Periodic="Boundary", Bounds=[1, -1] * 3)
+vg.set_properties(overlap, Periodic="Boundary", Bounds=[1, -1] * 3)
 _, found = values(integral, 2000)
 height = numpy.clip(frames[2000]["radius"] - frames[2000]["x"][:, 2], 0, None)
 above = solid - (numpy.pi * height**2 * (3 * frames[2000]["radius"] - height) / 3).sum()
@@ -168,16 +168,16 @@ for properties in ({"Coordinates": "Unwrapped"}, {"Coordinates": "Scaled"}, {"Po
 for kind in ("Points", "ImageData"):
     overlap.Output = kind
     overlap.UpdatePipeline(2000)
-    granular.save(overlap, f"{kind}_*.euler", Dialect="LIGGGHTS")
+    vg.save(overlap, f"{kind}_*.euler", Dialect="LIGGGHTS")
     wanted = {"centres": plain_euler.grid(LO, HI, (5, 6, 7)), **expected}
     with open(f"{kind}_2000.euler") as file:
         assert file.read() == plain_euler.text(wanted), kind
-    granular.save(overlap, "wide_*.vtk", writer="GranularEulerWriter")  # by default all digits
+    vg.save(overlap, "wide_*.vtk", writer="GranularEulerWriter")  # by default all digits
     again = OpenDataFile(os.path.abspath("wide_2000.vtk"))
     assert again.GetXMLName() == "GranularEulerReader"
     same(values(again)[1], expected, kind)
 overlap.Output = "ImageData"
-granular.save(overlap, "all_*.euler", WriteTimeSteps=1)
+vg.save(overlap, "all_*.euler", WriteTimeSteps=1)
 assert plain_euler.read("all_0.euler")["volumefraction"].max() == 0  # no particles yet
 for step in (1000, 2000):
     assert plain_euler.read(f"all_{step}.euler")["volumefraction"].max() > 0.1

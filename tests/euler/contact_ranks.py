@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contacts in cells, profiles and at points: any number of ranks find the bits of one."""
-import granular
 import numpy
+import vtkgranular as vg
 from contact_averages import ALL, GAUSSIAN, OVERLAP, POINTS, PROFILE, Averages
 from paraview.simple import *
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
@@ -29,7 +29,7 @@ for name in ("bed", "periodic_bed", "moving"):
     for proxy, alone in cases + [(GranularPointAverage(**ports, Points=plane, KernelWidth=0.004), at_points)]:
         proxy.Arrays = ALL
         proxy.UpdatePipeline(step)
-        found, expected = granular.fetch(proxy, time=step), alone.update(step)
+        found, expected = vg.fetch(proxy, time=step), alone.update(step)
         for array in ALL:
             values = numpy.asarray(found[array]).reshape(len(expected[array]), -1)
             assert (values == expected[array]).all(), (name, array)

@@ -7,7 +7,7 @@ import plain_euler
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 files = [os.path.join(data, f"euler_{step}.vtk") for step in (1000, 2000, 3000, 4000)]
@@ -33,7 +33,7 @@ assert image.IsA("vtkImageData") and image.GetDimensions() == (5, 5, 8)
 assert (vtk_to_numpy(image.GetCellData().GetArray("pressure")) == expected["pressure"].ravel()).all()
 averaged = CellDatatoPointData(Input=series)
 cut = Slice(Input=series, SliceType="Plane")
-granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+vg.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
 level = Contour(Input=averaged, ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.05])
 for proxy in (averaged, cut, level):
     proxy.UpdatePipeline(0.04)
@@ -58,7 +58,7 @@ blocks.UpdatePipeline()
 assert blocks.GetDataInformation().GetNumberOfCells() == sum(len(part) for part in parts)
 assert numpy.allclose(blocks.GetDataInformation().GetBounds(), [0, 2, 0, 2, 0, 2], atol=1e-5)
 cut = Slice(Input=blocks, SliceType="Plane")
-granular.set_properties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
+vg.set_properties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
 level = Contour(Input=CellDatatoPointData(Input=blocks), ContourBy=["POINTS", "volumefraction"], Isosurfaces=[1])
 for proxy in (cut, level):
     proxy.UpdatePipeline()

@@ -11,7 +11,7 @@ from vtkmodules.vtkFiltersCore import (vtkCellDataToPointData, vtkContourFilter,
                                        vtkTriangleFilter)
 from vtkmodules.vtkParallelCore import vtkCommunicator
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 files = [os.path.join(data, f"euler_{step}.vtk") for step in (1000, 2000, 3000, 4000)]
@@ -52,7 +52,7 @@ sums = IntegrateVariables(Input=series)
 sums.UpdatePipeline(4000)
 level = Contour(Input=CellDatatoPointData(Input=series), ContourBy=["POINTS", "volumefraction"], Isosurfaces=[0.2])
 cut = Slice(Input=series, SliceType="Plane")
-granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+vg.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
 for proxy in (cut, level):
     proxy.UpdatePipeline(4000)
     assert cells_of(proxy) > 0
@@ -65,7 +65,7 @@ if rank == 0 and not all_ranks.symmetric:
     assert abs(volume - 0.1 * 0.1 * 0.15) < 1e-7, volume
     total = servermanager.Fetch(area).GetCellData().GetArray("Area").GetValue(0)
     assert abs(total - 0.1 * 0.15) < 1e-6, total
-    whole = granular.vtkGranularEulerReader()  # the same on this rank alone
+    whole = vg.vtkGranularEulerReader()  # the same on this rank alone
     whole.SetController(None)
     whole.AddFileName(files[3])
     whole.SetOutputType(1)
@@ -97,7 +97,7 @@ points = all_ranks.whole(CellCenters(Input=MergeBlocks(Input=blocks, MergePoints
 found = numpy.sort(own(points, "pressure"))
 assert numpy.allclose(found, numpy.sort(values["pressure"].ravel()), rtol=0, atol=1e-6)
 cut = Slice(Input=blocks, SliceType="Plane")
-granular.set_properties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
+vg.set_properties(cut.SliceType, Origin=[1, 1, 0.3], Normal=[0, 0, 1])
 smooth = Contour(Input=CellDatatoPointData(Input=blocks), ContourBy=["POINTS", "pressure"], Isosurfaces=[0])
 for proxy in (cut, smooth):
     proxy.UpdatePipeline()

@@ -13,14 +13,14 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 
 
 def read(*names, output=0, **properties):
     """The output, and all that was said."""
-    reader = granular.vtkGranularEulerReader()
+    reader = vg.vtkGranularEulerReader()
     reader.SetController(None)
     said = said_by(reader)
     for name in names:
@@ -123,7 +123,7 @@ for version in (42, 51):
         writer.SetFileName(name)
         writer.SetInputData(grid)
         writer.Write()
-        assert granular.vtkGranularEulerReader.CanReadFile(name), name
+        assert vg.vtkGranularEulerReader.CanReadFile(name), name
         output, said = read(name)
         assert said == [], (name, said)
         if binary:

@@ -3,9 +3,9 @@
 import gzip
 import os
 
-import granular
 import numpy
 import plain_euler
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
@@ -42,7 +42,7 @@ steps = (1000, 2000, 3000, 4000)
 series = GranularEulerReader(FileNames=[good(f"euler_{step}.vtk") for step in steps])
 for output in ("Points", "ImageData"):
     series.Output = output
-    granular.save(series, "real_*.euler", WriteTimeSteps=1)
+    vg.save(series, "real_*.euler", WriteTimeSteps=1)
     SaveData("data_*.euler", series, WriteTimeSteps=1)
     for step in steps:
         original = content(good(f"euler_{step}.vtk"))
@@ -52,7 +52,7 @@ for output in ("Points", "ImageData"):
 parallel = OpenDataFile(good("euler/parallel_2000.vtk"))
 for output in ("Points", "ImageData"):
     parallel.Output = output
-    granular.save(parallel, "parallel.vtk", writer=WRITER)
+    vg.save(parallel, "parallel.vtk", writer=WRITER)
     assert content("parallel.vtk") == content(good("euler/parallel_2000.vtk")), output
 
 # printf on numbers of every size
@@ -67,7 +67,7 @@ with open("wide.vtk", "w") as file:  # the same with all digits, as the reader t
 read = GranularEulerReader(FileNames=[os.path.abspath("wide.vtk")])
 for name, expected in cells.items():
     assert values(read)[name].tobytes() == expected.tobytes() or numpy.isnan(expected).any(), name
-granular.save(read, "printed.vtk", writer=WRITER, Dialect="LIGGGHTS")
+vg.save(read, "printed.vtk", writer=WRITER, Dialect="LIGGGHTS")
 assert content("printed.vtk") == content("nasty.vtk")
 
 # ---- wide: every number comes back, also by VTK's own reader, with stresses -------------------------------
@@ -76,7 +76,7 @@ stressed = plain_euler.cells(plain_euler.grid((0, 0, 0), (3e-6, 1e-6, 2e-6), (3,
 with open("stressed.vtk", "w") as file:
     file.write(plain_euler.text(stressed, digits))
 read = GranularEulerReader(FileNames=[os.path.abspath("stressed.vtk")])
-granular.save(read, "all_digits.euler")  # Automatic: nothing is lost
+vg.save(read, "all_digits.euler")  # Automatic: nothing is lost
 again = GranularEulerReader(FileNames=[os.path.abspath("all_digits.euler")])
 for name, expected in stressed.items():
     assert values(again)[name].tobytes() == expected.tobytes(), name
@@ -92,7 +92,7 @@ for name in ("v_avg", "volumefraction", "radius", "pressure", "sigma", "tau"):
     found = vtk_to_numpy(output.GetPointData().GetArray(name)).reshape(24, -1)
     assert (found == stressed[name]).all(), name
 infinite = GranularEulerReader(FileNames=[os.path.abspath("wide.vtk")])
-granular.save(infinite, "again.euler")
+vg.save(infinite, "again.euler")
 again = GranularEulerReader(FileNames=[os.path.abspath("again.euler")])
 for name, expected in cells.items():
     assert numpy.array_equal(values(again)[name], expected, equal_nan=True), name
@@ -100,28 +100,28 @@ assert numpy.signbit(values(again)["v_avg"][0, 2])
 
 # ---- compressed, empty, and filters in between ---------------------------------------------------------------
 
-granular.save(series, "packed_*.vtk.gz", time=2000, writer=WRITER)
+vg.save(series, "packed_*.vtk.gz", time=2000, writer=WRITER)
 with gzip.open("packed_2000.vtk.gz") as file:
     assert file.read() == content(good("euler_2000.vtk"))
 none = GranularEulerReader(FileNames=[write("none_5.vtk", plain_euler.cells(numpy.zeros((0, 3))))])
 for output in ("Points", "ImageData"):
     none.Output = output
-    granular.save(none, "nothing.euler")
+    vg.save(none, "nothing.euler")
     assert content("nothing.euler") == content("none_5.vtk"), output
 series.Output = "Points"
 moved = Transform(Input=series)
 moved.Transform.Translate = [1, 0, 0]
-granular.save(moved, "moved.euler", time=1000)
+vg.save(moved, "moved.euler", time=1000)
 first = plain_euler.read("moved.euler")["centres"][0]
 assert numpy.allclose(first, [0.9625, -0.0375, 0.010714], rtol=0, atol=1e-6), first
 series.Output = "ImageData"
 half = ExtractSubset(Input=series, VOI=[0, 4, 0, 4, 0, 3])
-granular.save(half, "half.euler", time=1000)
+vg.save(half, "half.euler", time=1000)
 whole = plain_euler.read(good("euler_1000.vtk"))
 for name, rows in plain_euler.read("half.euler").items():
     assert (rows == whole[name][:48]).all(), name
 dense = Threshold(Input=series, Scalars=["CELLS", "volumefraction"], LowerThreshold=0.1, UpperThreshold=1)
-granular.save(CellCenters(Input=dense), "dense.euler", time=4000)
+vg.save(CellCenters(Input=dense), "dense.euler", time=4000)
 whole = plain_euler.read(good("euler_4000.vtk"))
 chosen = whole["volumefraction"].ravel() >= 0.1
 assert 0 < chosen.sum() < 112

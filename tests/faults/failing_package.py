@@ -8,8 +8,8 @@ import io
 import os
 import warnings
 
-import granular
-from granular.command import main
+import vtkgranular as vg
+from vtkgranular.command import main
 import failing_calls
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -33,11 +33,11 @@ def read():
         warnings.simplefilter("always")
         found, error = hashlib.sha256(), None
         try:
-            for frame in granular.open(PLAIN):
+            for frame in vg.open(PLAIN):
                 found.update(repr((frame.step, list(frame))).encode())
                 for name in frame:
                     found.update(frame[name])
-        except (granular.Error, OSError, MemoryError) as raised:
+        except (vg.Error, OSError, MemoryError) as raised:
             error = said(raised)
     return None if error else found.hexdigest(), error, [str(one.message) for one in told]
 
@@ -66,8 +66,8 @@ def check_writer(name, write, faults, most_left=1):
 
 def write_by_library(path):
     try:
-        granular.write(path, frames)
-    except (granular.Error, OSError, MemoryError) as error:
+        vg.write(path, frames)
+    except (vg.Error, OSError, MemoryError) as error:
         return said(error)
     return None
 
@@ -84,7 +84,7 @@ def convert_last(path):
 
 def check_durable():
     """Two calls wait for the disk for each of three frames: for the bytes of the file, and for its name."""
-    assert failing_calls.count(failing_calls.SYNC, lambda: granular.write("one.dump", frames, durable=False)) == 0
+    assert failing_calls.count(failing_calls.SYNC, lambda: vg.write("one.dump", frames, durable=False)) == 0
     for path, options, expected in (("one.csv", ["--frames", "0"], 2), ("one.csv", ["--frames", "0", "--durable", "off"], 0),
                                     ("many_*.csv", [], 0), ("many_*.bin", ["--durable", "on"], 6)):
         made = failing_calls.count(failing_calls.SYNC, lambda: convert(path, *options))
@@ -94,7 +94,7 @@ def check_durable():
 check_reader()
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
-    frames = list(granular.open(PLAIN))
+    frames = list(vg.open(PLAIN))
     assert len(frames) == 3
     check_writer("new.dump", write_by_library, failing_calls.WRITER_FAULTS + failing_calls.MEMORY_FAULTS)
     # Python says it when closing is interrupted: the old file stays

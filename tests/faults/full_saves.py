@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""granular.save by ParaView's own writers where there is no room, as files may not have more bytes: an error that names the file, and
+"""vg.save by ParaView's own writers where there is no room, as files may not have more bytes: an error that names the file, and
 the old files as they were. Some of these writers do not look whether their bytes were written."""
 import contextlib
 import os
@@ -9,12 +9,12 @@ import signal
 
 from paraview.simple import *
 
-import granular
+import vtkgranular as vg
 
 PARTICLES = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 LIMIT = 100_000  # bytes of a file
 small, large = Sphere(), Sphere(ThetaResolution=200, PhiResolution=200)
-particles = granular.reader(PARTICLES)
+particles = vg.reader(PARTICLES)
 
 
 @contextlib.contextmanager
@@ -40,7 +40,7 @@ def contents():
 def refused(source, path, **properties):
     before = contents()
     try:
-        granular.save(source, path, **properties)
+        vg.save(source, path, **properties)
     except RuntimeError as error:
         assert str(error).startswith(path + ": "), error
     else:
@@ -54,17 +54,17 @@ os.chdir("full")
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 for ending in ("vtp", "csv", "ply", "stl", "vtk", "pvd", "pvtp"):
     path = f"a.{ending}"
-    granular.save(small, path)
+    vg.save(small, path)
     os.chmod(path, 0o640)
     with limited():
         refused(large, path)
-    granular.save(small, path)
+    vg.save(small, path)
     assert os.stat(path).st_mode & 0o777 == 0o640, ending
     for name in os.listdir("."):
         shutil.rmtree(name) if os.path.isdir(name) else os.remove(name)
 
 # all files of a series, or none
-granular.save(particles, "all.vtp", WriteTimeSteps=1)
+vg.save(particles, "all.vtp", WriteTimeSteps=1)
 assert sorted(os.listdir(".")) == ["all_0.vtp", "all_1.vtp", "all_2.vtp"], os.listdir(".")
 with limited():
     refused(particles, "all.vtp", WriteTimeSteps=1)

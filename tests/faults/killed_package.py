@@ -7,7 +7,7 @@ import os
 import shutil
 import signal
 
-from granular._whole_file import whole_file, whole_files
+from vtkgranular._whole_file import whole_file, whole_files
 
 OLD = b"old" * 50_000
 

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 
-import granular
+import vtkgranular as vg
 
 RANKS = 3
 NAMES = ("a.dump", "a.bin", "a.dump.gz")
@@ -56,7 +56,7 @@ def main(kills, mpirun, program):
     status, said = run(mpirun, program, *(word for name, mode, durable in ways for word in (f"{mode}_{name}", mode, durable, -1, 0)))
     assert status == 0, said
     calls = [content(f"most_{rank}").split() for rank in range(RANKS)]
-    frame = granular.open("Gather_a.dump")[0]
+    frame = vg.open("Gather_a.dump")[0]
     left = new = 0
     for kill in range(kills):
         name, mode, durable = way = ways[kill % len(ways)]
@@ -71,7 +71,7 @@ def main(kills, mpirun, program):
         assert now in (OLD, expected), (len(now), *what)
         new += now == expected
         left += bool(hidden())
-        granular.write(name, frame)
+        vg.write(name, frame)
         assert not hidden(), (hidden(), *what)
     print(f"killed at {kills} calls, {left} left a file, {new} had written the new one")
 

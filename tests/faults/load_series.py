@@ -10,7 +10,7 @@ import shutil
 import sys
 import time
 
-import granular
+import vtkgranular as vg
 from paraview import simple
 
 COUNT = int(sys.argv[1])
@@ -37,7 +37,7 @@ def open_and_delete():
     def grown(count):
         before = held()
         for _ in range(count):
-            simple.Delete(granular.reader("series/run_0.dump"))
+            simple.Delete(vg.reader("series/run_0.dump"))
         return held() - before
 
     grown(20)
@@ -49,12 +49,12 @@ def open_and_delete():
 def read_series():
     """Opens the series, reads three frames and deletes the reader. Returns the most memory in MiB beside what was held."""
     before, start = held(), time.monotonic()
-    reader = granular.reader("series/run_*.dump")
+    reader = vg.reader("series/run_*.dump")
     opened = time.monotonic() - start
     assert len(reader.FileNames) == COUNT, len(reader.FileNames)
     assert list(reader.TimestepValues) == list(range(COUNT))
     for step in (0, COUNT // 3, COUNT - 1):
-        frame = granular.fetch(reader, time=step)
+        frame = vg.fetch(reader, time=step)
         assert frame["timestep"] == step and frame["points"].tolist() == [[step, 0, 0]], step
     simple.Delete(reader)
     mib = status("VmHWM") - before
@@ -64,7 +64,7 @@ def read_series():
 
 
 def main():
-    granular.load_plugin()
+    vg.load_plugin()
     shutil.rmtree("series", ignore_errors=True)
     os.makedirs("series")
     for step in range(COUNT):

@@ -12,7 +12,7 @@ import struct
 import sys
 import time
 
-import granular
+import vtkgranular as vg
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArraySelection
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -124,7 +124,7 @@ class Reader:
     """A reader that lives as long as the process."""
 
     def __init__(self, kind):
-        self.get = getattr(granular, f"vtkGranular{kind}Reader")()
+        self.get = getattr(vg, f"vtkGranular{kind}Reader")()
         self.said = said_by(self.get)
 
     def set_any(self, chance):

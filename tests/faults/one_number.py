@@ -13,7 +13,7 @@ import warnings
 
 import numpy
 
-import granular
+import vtkgranular as vg
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
 NUMBER = re.compile(rb"(?<![^\s])[-+0-9.][-+0-9.eE]*(?![^\s])")
@@ -49,12 +49,12 @@ def content(path, column_names=""):
     """All that is read of the first frame with rows: arrays by name, each a row per line; and what was said."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        run = granular.open(path, column_names=column_names)
+        run = vg.open(path, column_names=column_names)
         whole = run[next((i for i in range(len(run)) if run[i].rows), 0)].read()
         read = {name: numpy.array(whole[name]) for name in whole.keys()}
         try:
             read["points"] = numpy.array(whole.points)
-        except granular.ColumnError:
+        except vg.ColumnError:
             pass  # a file without positions
         if run.kind in ("data", "restart"):
             read |= {"bonds " + name: numpy.array(whole.bonds[name]) for name in whole.bonds.keys()}
@@ -121,7 +121,7 @@ def judge(path, column_names, before, given, is_number):
     """"error", "same" or "changed"; raises for anything else."""
     try:
         after, said = content(path, column_names)
-    except granular.Error as error:
+    except vg.Error as error:
         assert re.search(re.escape(path) + "[:@][0-9]+", str(error)), f"an error without its place: {error}"
         return "error"
     if path.endswith(".data") and differences({"id": before["id"]}, {"id": after["id"]}):

@@ -9,8 +9,8 @@ import warnings
 
 import command
 
-import granular
-from granular.command import main
+import vtkgranular as vg
+from vtkgranular.command import main
 
 warnings.simplefilter("ignore")
 PARTICLES = os.path.join(command.GOOD, "grains_1000.dump")
@@ -41,30 +41,30 @@ def convert(*arguments, status=0):
 
 
 # ---- names --------------------------------------------------------------------------------------
-plain = granular.open(PARTICLES)[0].read()
+plain = vg.open(PARTICLES)[0].read()
 for name, shown in NAMES.items():
     file = name + ".dump"
     os.mkdir(name)
     for path in (file, os.path.join(name, file)):
         shutil.copy(PARTICLES, path)
         for spelled in (path, os.fsencode(path), os.path.abspath(path)):
-            assert (granular.open(spelled)[0]["id"] == plain["id"]).all()
-    assert granular.files(os.path.join(name, "*.dump")) == [os.path.join(HERE, name, file)]
-    expect_error(granular.Error, lambda: granular.open(file, kind="restart"), os.path.join(HERE, shown + ".dump"))  # noqa: B023
-    expect_error(FileNotFoundError, lambda: granular.open(name + ".none"), shown + ".none")  # noqa: B023
+            assert (vg.open(spelled)[0]["id"] == plain["id"]).all()
+    assert vg.files(os.path.join(name, "*.dump")) == [os.path.join(HERE, name, file)]
+    expect_error(vg.Error, lambda: vg.open(file, kind="restart"), os.path.join(HERE, shown + ".dump"))  # noqa: B023
+    expect_error(FileNotFoundError, lambda: vg.open(name + ".none"), shown + ".none")  # noqa: B023
     if "*" not in name and "%" not in name:
         os.remove(file)
-        granular.write(file, plain)
+        vg.write(file, plain)
         assert command.content(file) == command.content(PARTICLES), name
     with open(name + ".log", "w") as log:
         log.write("nothing\n")
-    expect_error(granular.Error, lambda: granular.read_log(name + ".log"), shown + ".log")  # noqa: B023
+    expect_error(vg.Error, lambda: vg.read_log(name + ".log"), shown + ".log")  # noqa: B023
     shutil.copy(PARTICLES, name + "_7.stl")
     if "\udcff" in name:
-        expect_error(ValueError, lambda: granular.write_series([name + "_7.stl"], 1, path="no.series"), "UTF-8", shown)  # noqa: B023
+        expect_error(ValueError, lambda: vg.write_series([name + "_7.stl"], 1, path="no.series"), "UTF-8", shown)  # noqa: B023
     else:
-        assert os.path.exists(granular.write_series([name + "_7.stl"], 1)), name
-for call in (granular.open, granular.files, lambda path: granular.write(path, plain)):
+        assert os.path.exists(vg.write_series([name + "_7.stl"], 1)), name
+for call in (vg.open, vg.files, lambda path: vg.write(path, plain)):
     expect_error(ValueError, lambda: call("nul\0.dump"), "null")  # noqa: B023
 for name in ("new\nline", os.fsdecode(b"\xff\xfe"), "-dash", "st*r"):
     shutil.copy(PARTICLES, name + ".dump")
@@ -86,8 +86,8 @@ for target, link in (("pipe", "to_pipe"), ("folder", "to_folder"), ("loop", "loo
 DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory"
 for place, why in {"pipe": DEVICE, "to_pipe": DEVICE, "socket": DEVICE, "/dev/null": DEVICE, "/dev/zero": DEVICE, "/dev/full": DEVICE,
                    "folder": FOLDER, "folder/": FOLDER, "to_folder": FOLDER, "loop": "Too many levels", "dangling": "No such file"}.items():
-    expect_error(OSError, lambda: granular.open(place), why)  # noqa: B023
-    expect_error(OSError, lambda: granular.files(place), why)  # noqa: B023
+    expect_error(OSError, lambda: vg.open(place), why)  # noqa: B023
+    expect_error(OSError, lambda: vg.files(place), why)  # noqa: B023
 os.symlink("pipe", "out.csv")  # what is written in Python; for dumps, tests/bytes
 assert "out.csv" in convert(PARTICLES, "out.csv", status=1)
 assert os.path.islink("out.csv")

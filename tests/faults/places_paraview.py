@@ -7,7 +7,7 @@ import socket
 from paraview import smtrace
 from paraview.simple import *
 
-import granular
+import vtkgranular as vg
 
 SOURCE = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains_1000.dump")
 ROWS = 1200
@@ -47,11 +47,11 @@ def delete_all():
 for name, shown in NAMES.items():
     path, state, before = os.path.join(HERE, name + ".dump"), os.path.join(HERE, name + ".pvsm"), set(os.listdir("."))
     shutil.copy(SOURCE, path)
-    granular.reader(path)
+    vg.reader(path)
     SaveState(state)
     delete_all()
-    granular.load_state(state)
-    granular.save(expect_shown(path), os.path.join(HERE, "out_" + name[:230] + ".dump"))
+    vg.load_state(state)
+    vg.save(expect_shown(path), os.path.join(HERE, "out_" + name[:230] + ".dump"))
     written, = set(os.listdir(".")) - before - {name + ".dump", name + ".pvsm"}
     assert written == f"out_{name[:230]}.dump" or "*" in name or "%" in name  # the timestep and the rank
     with open(written, "rb") as stream:
@@ -65,14 +65,14 @@ for name, shown in NAMES.items():
     expect_shown(path)
     delete_all()
     os.truncate(path, 7)
-    expect_error(RuntimeError, lambda: granular.reader(path), os.path.join(HERE, shown + ".dump: "))  # noqa: B023
+    expect_error(RuntimeError, lambda: vg.reader(path), os.path.join(HERE, shown + ".dump: "))  # noqa: B023
     delete_all()
     for each in (path, state, written):
         os.remove(each)
-opened = granular.reader(SOURCE)
+opened = vg.reader(SOURCE)
 odd = os.fsencode(HERE) + b"/\xff\xfe.dump"  # not UTF-8
 shutil.copy(SOURCE, odd)
-for call in (lambda: granular.reader(odd), lambda: granular.save(opened, odd), lambda: granular.load_state(odd)):
+for call in (lambda: vg.reader(odd), lambda: vg.save(opened, odd), lambda: vg.load_state(odd)):
     expect_error(ValueError, call, "UTF-8", r"\xff\xfe.dump")
 os.remove(odd)
 
@@ -82,9 +82,9 @@ os.mkdir("folder")
 socket.socket(socket.AF_UNIX).bind("socket")
 DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory"
 for place, why in {"pipe": DEVICE, "folder": FOLDER, "socket": "cannot open: ", "/dev/null": DEVICE, "/dev/zero": DEVICE}.items():
-    expect_error(RuntimeError, lambda: granular.reader(os.path.join(HERE, place)), why)  # noqa: B023
+    expect_error(RuntimeError, lambda: vg.reader(os.path.join(HERE, place)), why)  # noqa: B023
     os.symlink(place, "link.dump")
-    expect_error(RuntimeError, lambda: granular.save(opened, os.path.join(HERE, "link.dump")), "link.dump: cannot write: ")
+    expect_error(RuntimeError, lambda: vg.save(opened, os.path.join(HERE, "link.dump")), "link.dump: cannot write: ")
     os.remove("link.dump")
 assert sorted(os.listdir(".")) == ["folder", "pipe", "socket"] and not os.listdir("folder"), os.listdir(".")
 print("all places were tried")

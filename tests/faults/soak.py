@@ -12,8 +12,8 @@ import os
 import sys
 import time
 
-import granular
 import numpy
+import vtkgranular as vg
 from paraview import simple
 
 SAMPLES = os.environ["GRANULAR_SAMPLES"]
@@ -35,7 +35,7 @@ class Use:
 
     def update(self, source, moment=None):
         self.updates += 1
-        granular.update(source, moment)
+        vg.update(source, moment)
 
     def points(self, source):
         return source.GetDataInformation().GetNumberOfPoints()
@@ -61,7 +61,7 @@ class Use:
         for path, expected in ((sample("grains.dump"), 1200), (sample("bonds", "chain.data"), None),
                                (sample("bonds", "chain_bonds.dump"), None), (sample("restart", "fibres.40000.restart"), None),
                                (sample("euler_*.vtk"), 112)):
-            reader = granular.reader(path)
+            reader = vg.reader(path)
             times = list(reader.TimestepValues) if hasattr(reader.TimestepValues, "__len__") else [reader.TimestepValues]
             for moment in times + times[::-1]:
                 self.update(reader, moment)
@@ -99,8 +99,8 @@ class Use:
     def look(self):
         """Spheres, colours, an animation and a picture."""
         view = self.new_view()
-        reader = granular.reader(sample("grains.dump"))
-        granular.show(reader, view)
+        reader = vg.reader(sample("grains.dump"))
+        vg.show(reader, view)
         scene = simple.GetAnimationScene()
         scene.UpdateAnimationUsingDataTimeSteps()
         scene.Play()
@@ -112,25 +112,25 @@ class Use:
 
     def write(self):
         """Files, read back."""
-        reader = granular.reader(sample("grains.dump"))
+        reader = vg.reader(sample("grains.dump"))
         self.update(reader, 2000)
         for name in ("saved.dump", "saved.dump.gz", "saved.vtp"):
-            granular.save(reader, name)
+            vg.save(reader, name)
         simple.Delete(reader)
-        again = granular.reader("saved.dump.gz")
+        again = vg.reader("saved.dump.gz")
         self.update(again)
         assert self.points(again) == 1200
         simple.Delete(again)
 
     def state(self):
         """A state that is saved, and loaded."""
-        reader = granular.reader(sample("grains.dump"))
+        reader = vg.reader(sample("grains.dump"))
         self.update(reader)
         for view in simple.GetRenderViews():
             simple.Delete(view)
         simple.SaveState("session.pvsm")
         simple.Delete(reader)
-        granular.load_state("session.pvsm")
+        vg.load_state("session.pvsm")
         for loaded in list(simple.GetSources().values()):
             self.update(loaded)
             simple.Delete(loaded)
@@ -156,7 +156,7 @@ def cost_of_views(use):
 
 def main():
     activities = ["open_and_step", "filters", "look", "write", "state"]
-    granular.load_plugin(ns=vars(simple))
+    vg.load_plugin(ns=vars(simple))
     use, rounds, grown = Use(), 0, dict.fromkeys(activities, 0.0)
     start = told = time.monotonic()
     half = []

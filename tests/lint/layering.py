@@ -12,7 +12,7 @@
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
     plugin/views           VTK, ParaView's views, but no core and no Qt
     core/python            Python's own modules; numpy, pandas and VTK in functions, so that who imports it needs none of them
-    samples                paraview.simple, granular, numpy and Python's own modules
+    samples                paraview.simple, vtkgranular, numpy and Python's own modules
 """
 import ast
 import os
@@ -99,8 +99,8 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
 )}
 
 C_HEADERS = ("core/c/granular.h", "core/bonds/granular_bonds.h")
-SAMPLE_MODULES = ("paraview.simple", "granular", "numpy")
-LATER_MODULES = ("granular", "numpy", "pandas", "vtkmodules")
+SAMPLE_MODULES = ("paraview.simple", "vtkgranular", "numpy")
+LATER_MODULES = ("vtkgranular", "numpy", "pandas", "vtkmodules")
 
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]([^\n]*)', re.MULTILINE)
 
@@ -237,7 +237,7 @@ def check_sample(root, path):
                 continue
             if name.split(".")[0] == "vtkmodules" and not for_paraview:
                 continue  # a sample for those who have VTK alone
-            if not name.startswith("granular."):
+            if not name.startswith("vtkgranular."):
                 yield path, node.lineno, (f"{name}: a sample imports {' and '.join(SAMPLE_MODULES)} "
                                           "and Python's own modules only")
 

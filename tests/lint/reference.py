@@ -14,7 +14,7 @@ FOLDER = "docs/reference/"
 GROUPS = {"sources": "source or reader", "filters": "filter", "writers": "writer", "representations": "representation"}
 HEADERS = ("plugin/vtk/", "plugin/views/")
 MADE = "<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->"
-PACKAGE = ("core/python/granular/", "plugin/python/granular/")
+PACKAGE = ("core/python/vtkgranular/", "plugin/python/vtkgranular/")
 INIT = PACKAGE[0] + "__init__.py"
 MADE_BY_USERS = ("Box", "Writer")  # the other classes are what functions return
 
@@ -96,7 +96,7 @@ def class_lines(node, found):
     init = next((each for each in node.body if isinstance(each, ast.FunctionDef) and each.name == "__init__"), None)
     lines = [f"## {node.name}", "", *text_block(node)]
     if init and node.name in MADE_BY_USERS:
-        lines[2:2] = ["```python", f"granular.{node.name}({signature(init, 1)})", "```", ""]
+        lines[2:2] = ["```python", f"vtkgranular.{node.name}({signature(init, 1)})", "```", ""]
     for each in sorted(members(node, found), key=lambda member: member.name):
         is_property = any(isinstance(each_decorator, ast.Name) and each_decorator.id == "property" for each_decorator in each.decorator_list)
         call = each.name if is_property else f"{each.name}({signature(each, 1)})"
@@ -117,11 +117,11 @@ def functions_page(root, files):
                 names = [name for name in ast.literal_eval(node.value) if not name.startswith("__")]
             elif path == INIT and isinstance(node, ast.ImportFrom) and node.level:
                 classes += [each.name for each in node.names if each.name[0].isupper()]
-    lines = [MADE, "# The Python package granular", "",
-             "The functions and classes that scripts use. In Python, `help(granular.reader)` shows the same text.", ""]
+    lines = [MADE, "# The Python package vtkgranular", "",
+             "The functions and classes that scripts use. In Python, `help(vtkgranular.reader)` shows the same text.", ""]
     for name in sorted(names):
         node = found[name]
-        lines += [f"## {name}", "", "```python", f"granular.{name}({signature(node)})", "```", "", *text_block(node)]
+        lines += [f"## {name}", "", "```python", f"vtkgranular.{name}({signature(node)})", "```", "", *text_block(node)]
     for name in sorted(name for name in classes if isinstance(found.get(name), ast.ClassDef)):
         lines += class_lines(found[name], found)
     return "\n".join(lines[:-1]) + "\n"
@@ -156,7 +156,7 @@ def pages(root):
     """Path and text of each page."""
     files = tree.files(root)
     if INIT in files:
-        yield f"{FOLDER}granular.md", functions_page(root, files)
+        yield f"{FOLDER}vtkgranular.md", functions_page(root, files)
     found, _ = server_manager.proxies(root)
     exposed = exposed_names(proxy for _, proxy in found)
     for group, proxy in found:

@@ -88,24 +88,24 @@ class Reference(unittest.TestCase):
 
 
     def test_functions_of_the_package(self):
-        package = {"core/python/granular/__init__.py": 'from ._c import C, x\n__all__ = ["__version__", "b", "a"]\n',
-                   "plugin/python/granular/_ab.py":
+        package = {"core/python/vtkgranular/__init__.py": 'from ._c import C, x\n__all__ = ["__version__", "b", "a"]\n',
+                   "plugin/python/vtkgranular/_ab.py":
                    'def a(*x: int, y: int, z: int = 3) -> None:\n    """Does a.\n\n    x  numbers\n    """\n\n\n'
                    'def b(x: int, y: str = "c", **more: int) -> None:\n    """Does b."""\n\n\ndef _c() -> None:\n    """Hidden."""\n',
-                   "core/python/granular/_c.py":
+                   "core/python/vtkgranular/_c.py":
                    'class _B:\n    @property\n    def p(self) -> int:\n        """A number."""\n\n    def _q(self) -> None:\n        """Hidden."""\n\n\n'
                    'class C(_B):\n    """A c."""\n\n    def m(self, x: int = 1) -> None:\n        """Does m."""\n'}
-        page = ("<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->\n# The Python package granular\n\n"
-                "The functions and classes that scripts use. In Python, `help(granular.reader)` shows the same text.\n\n## a\n\n```python\n"
-                "granular.a(*x, y, z=3)\n```\n\n```text\nDoes a.\n\nx  numbers\n```\n\n## b\n\n```python\n"
-                "granular.b(x, y='c', **more)\n```\n\n```text\nDoes b.\n```\n\n## C\n\n```text\nA c.\n```\n\n### C.m\n\n```python\n"
+        page = ("<!-- SPDX-License-Identifier: BSD-3-Clause; made by tests/lint/reference.py -->\n# The Python package vtkgranular\n\n"
+                "The functions and classes that scripts use. In Python, `help(vtkgranular.reader)` shows the same text.\n\n## a\n\n```python\n"
+                "vtkgranular.a(*x, y, z=3)\n```\n\n```text\nDoes a.\n\nx  numbers\n```\n\n## b\n\n```python\n"
+                "vtkgranular.b(x, y='c', **more)\n```\n\n```text\nDoes b.\n```\n\n## C\n\n```text\nA c.\n```\n\n### C.m\n\n```python\n"
                 "c.m(x=1)\n```\n\n```text\nDoes m.\n```\n\n### C.p\n\n```python\nc.p\n```\n\n```text\nA number.\n```\n")
-        pages = {"docs__reference__granular_dot_md": page, "docs__reference__GranularX_dot_md": self.page}
+        pages = {"docs__reference__vtkgranular_dot_md": page, "docs__reference__GranularX_dot_md": self.page}
         self.assertEqual(self.pages(**package, **pages), [])
-        package["plugin/python/granular/_ab.py"] += "\n"
+        package["plugin/python/vtkgranular/_ab.py"] += "\n"
         self.assertEqual(self.pages(**package, **pages), [])
-        package["plugin/python/granular/_ab.py"] = package["plugin/python/granular/_ab.py"].replace("numbers", "words")
-        self.assertEqual(self.pages(**package, **pages), ["docs/reference/granular.md:1"])
+        package["plugin/python/vtkgranular/_ab.py"] = package["plugin/python/vtkgranular/_ab.py"].replace("numbers", "words")
+        self.assertEqual(self.pages(**package, **pages), ["docs/reference/vtkgranular.md:1"])
 
 
 class HardCases(unittest.TestCase):
@@ -212,14 +212,14 @@ class Layering(unittest.TestCase):
     def test_arrays(self):
         self.assertEqual(found(
             layering.check,
-            core__python__granular___a_dot_py="import os\nimport numpy\nfrom . import b\n\ndef f():\n    import numpy\n"
+            core__python__vtkgranular___a_dot_py="import os\nimport numpy\nfrom . import b\n\ndef f():\n    import numpy\n"
             "    from vtkmodules.x import y\n    from paraview import simple\n    import scipy\n"), [
-                f"core/python/granular/_a.py:{line}" for line in (2, 8, 9)])
+                f"core/python/vtkgranular/_a.py:{line}" for line in (2, 8, 9)])
 
     def test_sample(self):
         self.assertEqual(found(
             layering.check,
-            samples__01_a_dot_py="import os\nfrom paraview.simple import *\nimport granular\n"
+            samples__01_a_dot_py="import os\nfrom paraview.simple import *\nimport vtkgranular as vg\n"
             "from paraview import servermanager\nimport support\nfrom . import x\n"
             "from paraview import simple\n"), [
                 f"samples/01_a.py:{line}" for line in (4, 5, 6)])
@@ -335,7 +335,7 @@ class Style(unittest.TestCase):
                 "plugin/vtk/a.cxx:4"])
 
     def test_scripts(self):
-        text = '# SPDX-License-Identifier: BSD-3-Clause\nc.ApplyPreset("Plasma")\nc.ApplyPreset(granular.preset("Plasma"))\nLoadPalette("White")\n'
+        text = '# SPDX-License-Identifier: BSD-3-Clause\nc.ApplyPreset("Plasma")\nc.ApplyPreset(vg.preset("Plasma"))\nLoadPalette("White")\n'
         self.assertEqual(found(style.check, samples__a_dot_py=text, tests__a_dot_py=text), ["samples/a.py:2", "samples/a.py:4"])
 
     def test_openings(self):

@@ -25,7 +25,7 @@ BANNED = (
 )
 # The same in scripts of users: samples, the guide, README.
 SCRIPTS = (
-    (r"\bApplyPreset\((?!granular\.preset\()", "names a preset that another ParaView may call otherwise: use granular.preset"),
+    (r"\bApplyPreset\((?!(?:vg|vtkgranular)\.preset\()", "names a preset that another ParaView may call otherwise: use vg.preset"),
     (r"\bLoadPalette\(", "stays in the user's own settings: use OverrideColorPalette of SaveScreenshot"),
 )
 # A comment of the product says what something does, or names it: "Returns true if ..." and "Bytes that ..." rather than "Whether ..." and

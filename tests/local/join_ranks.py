@@ -10,7 +10,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkTable
 
 import all_ranks
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 dump = os.path.join(data, "local", "chain.dump")
@@ -53,7 +53,7 @@ def content(output):
 
 def alone(periodic):
     """The same by the classes, in this process without the others."""
-    reader, join, rows = granular.vtkGranularDumpReader(), granular.vtkGranularLocalJoin(), vtkTable()
+    reader, join, rows = vg.vtkGranularDumpReader(), vg.vtkGranularLocalJoin(), vtkTable()
     reader.SetController(None)
     reader.AddFileName(dump)
     exec(script().replace("self.GetOutputDataObject(0)", "made"), {"made": rows})

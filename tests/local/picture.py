@@ -2,9 +2,9 @@
 """Contacts and bonds as ParaView's users meet them: arrays, rows, lines across faces, tubes in a picture."""
 import os
 
-import granular
 import numpy
 import plain_local
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -58,7 +58,7 @@ Hide(reader, view)
 display = Show(tube, view)
 ColorBy(display, ("CELLS", "force", "Magnitude"))
 colors = GetColorTransferFunction("force")
-colors.ApplyPreset(granular.preset("Viridis"), True)
+colors.ApplyPreset(vg.preset("Viridis"), True)
 colors.RescaleTransferFunction(0, 0.5)
 view.ResetActiveCameraToPositiveY()
 ResetCamera(view)

@@ -9,7 +9,7 @@ import plain_local
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from said import said_by
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good", "local")
 FORCE = ["x1", "y1", "z1", "x2", "y2", "z2", "id1", "id2", "periodic", "forcex", "forcey", "forcez"]
@@ -19,7 +19,7 @@ class Read:
     """The outputs at a time, and all that was said."""
 
     def __init__(self, names, time=None, **properties):
-        reader = granular.vtkGranularLocalReader()
+        reader = vg.vtkGranularLocalReader()
         reader.SetController(None)
         self.said = said_by(reader)
         for name in [names] if isinstance(names, str) else names:

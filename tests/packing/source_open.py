@@ -3,8 +3,8 @@
 import math
 import os
 
-import granular
 import numpy
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -104,8 +104,8 @@ colored = (pixels.max(axis=1) - pixels.min(axis=1)) > 60
 assert 0.1 < colored.mean() < 0.9, colored.mean()
 
 # a lattice in a tilted, periodic box
-granular.set_properties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.005,
-                        BoxTilts=[0.03, 0, 0], Boundary="p p f", Spacing=1.05, Speed=0.5, Seed=-3)
+vg.set_properties(source, Arrangement="FaceCentredCubic", NumberOfGrains=0, Radii="One", Radius=0.005,
+                  BoxTilts=[0.03, 0, 0], Boundary="p p f", Spacing=1.05, Speed=0.5, Seed=-3)
 source.UpdatePipeline()
 ResetCamera(view)
 SaveScreenshot("lattice.png", view)
@@ -116,8 +116,8 @@ assert 0.4 < arrays["v"].std() < 0.6
 assert (picture("lattice.png") != pixels).any()
 
 # a box that is made for the particles
-granular.set_properties(source, Arrangement="Random", BoxLengths=[0, 0, 0], BoxTilts=[0, 0, 0], NumberOfGrains=5000,
-                        SolidFraction=0.25)
+vg.set_properties(source, Arrangement="Random", BoxLengths=[0, 0, 0], BoxTilts=[0, 0, 0], NumberOfGrains=5000,
+                  SolidFraction=0.25)
 source.UpdatePipeline()
 assert source.GetDataInformation().GetNumberOfPoints() == 5000
 bounds = box.GetDataInformation().GetBounds()
@@ -125,8 +125,8 @@ edge = (5000 * 4 / 3 * math.pi * 0.005 ** 3 / 0.25) ** (1 / 3)
 assert numpy.allclose(bounds, [0, edge, 0, edge, 0, edge]), bounds
 
 # a bonded chain: tubes on its bonds, in their place
-granular.set_properties(source, Arrangement="Chain", NumberOfGrains=15, Radii="One", Radius=0.002, Spacing=1.5, Speed=0,
-                        BondFactor=1, Boundary="f f f")
+vg.set_properties(source, Arrangement="Chain", NumberOfGrains=15, Radii="One", Radius=0.002, Spacing=1.5, Speed=0,
+                  BondFactor=1, Boundary="f f f")
 source.UpdatePipeline()
 bonds = OutputPort(source, "Bonds")
 assert bonds.GetDataInformation().GetNumberOfCells() == 14
@@ -148,7 +148,7 @@ pixels = picture("tubes.png")
 assert ((pixels.max(axis=1) - pixels.min(axis=1)) > 60).mean() > 0.002
 Delete(tubes)
 Show(source, view)
-granular.set_properties(source, Arrangement="Random", Radius=0.005, BondFactor=0)
+vg.set_properties(source, Arrangement="Random", Radius=0.005, BondFactor=0)
 
 # more than 2^31 can be asked for
 source.NumberOfGrains = 3_000_000_000
@@ -156,14 +156,14 @@ assert source.NumberOfGrains == 3_000_000_000
 
 # filters, and the package's own way to look
 source.NumberOfGrains = 500
-granular.show(source, view, color="v")
+vg.show(source, view, color="v")
 clip = Threshold(source, Scalars=["POINTS", "id"], ThresholdMethod="Below Lower Threshold",
                  LowerThreshold=100)
 clip.UpdatePipeline()
 assert clip.GetDataInformation().GetNumberOfPoints() == 100
 
 # a dump of the particles is read back as the particles
-granular.set_properties(source, BoxLengths=[0.1, 0.1, 0.1], BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
+vg.set_properties(source, BoxLengths=[0.1, 0.1, 0.1], BoxTilts=[0.02, 0, -0.01], Boundary="p p p", NumberOfGrains=300, Speed=1)
 path = os.path.abspath("grains.dump")
 SaveData(path, source)
 reader = OpenDataFile(path)

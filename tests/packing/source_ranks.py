@@ -6,13 +6,13 @@ import numpy
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-import granular
+import vtkgranular as vg
 from all_ranks import symmetric, whole
 
 
 def alone(**properties):
     """The same by the class, in this process without the others."""
-    source = granular.vtkGranularPackingSource()
+    source = vg.vtkGranularPackingSource()
     source.SetController(None)
     for name, value in properties.items():
         getattr(source, f"Set{name}")(*value if isinstance(value, tuple) else (value,))

@@ -8,7 +8,7 @@ from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import all_ranks
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good", "paths")
 DUMP = os.path.join(data, "breaking.dump")
@@ -28,7 +28,7 @@ def content(output, names, points):
 
 def alone(step, previous):
     """The same by the classes, in this process without the others."""
-    reader, bonds, join, compare = (getattr(granular, "vtkGranular" + name)() for name in
+    reader, bonds, join, compare = (getattr(vg, "vtkGranular" + name)() for name in
                                     ("DumpReader", "LocalReader", "LocalJoin", "Compare"))
     for one in (reader, bonds, join, compare):
         one.SetController(None)

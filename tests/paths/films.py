@@ -5,7 +5,7 @@ Readers have times of their own, which the lint of the XML tells apart from sett
 import glob
 import os
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good", "contacts")
@@ -31,12 +31,12 @@ def film(source, name):
 
 
 render, chart = CreateView("RenderView"), CreateView("XYChartView")
-particles = granular.reader(os.path.join(data, "moving.dump.gz"), dt=0.5)
+particles = vg.reader(os.path.join(data, "moving.dump.gz"), dt=0.5)
 wanted = ([1500, 1510], 1500, 1510, "Snap To TimeSteps")
 assert times() == wanted, times()
 assert film(particles, "reader") == 2
 
-contacts = granular.reader(os.path.join(data, "moving_contacts.dump.gz"), dt=0.5, ColumnMap="pos vel id force delta")
+contacts = vg.reader(os.path.join(data, "moving_contacts.dump.gz"), dt=0.5, ColumnMap="pos vel id force delta")
 inputs = {"Input": particles, "Lines": contacts, "Points": particles}
 names = sorted(name for group in ("sources", "filters") for name in dir(getattr(servermanager, group))
                if name.startswith("Granular") and not name.endswith("Reader"))

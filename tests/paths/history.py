@@ -3,8 +3,8 @@
 import math
 import os
 
-import granular
 import numpy
+import vtkgranular as vg
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -35,7 +35,7 @@ class Passing(VTKPythonAlgorithmBase):
 
 
 def reader_of(*names):
-    reader = granular.vtkGranularDumpReader()
+    reader = vg.vtkGranularDumpReader()
     reader.SetController(None)
     for name in names:
         reader.AddFileName(os.path.join(data, name))
@@ -44,7 +44,7 @@ def reader_of(*names):
 
 def history(source, said=None, time=None, **properties):
     """The columns by name, and their order."""
-    filter_ = granular.vtkGranularHistory()
+    filter_ = vg.vtkGranularHistory()
     filter_.SetController(None)
     filter_.SetInputConnection(source.GetOutputPort())
     for name, value in properties.items():
@@ -124,7 +124,7 @@ assert both(walk, FrameStride=7, Ids="5")["timestep"].tolist() == list(range(0, 
 assert same(history(walk, time=0, Arrays="v"), history(walk, time=2, Arrays="v"))
 
 # pieces: the first has the table
-pieces = [granular.vtkGranularHistory() for _ in range(2)]
+pieces = [vg.vtkGranularHistory() for _ in range(2)]
 for piece, filter_ in enumerate(pieces):
     filter_.SetController(None)
     filter_.SetInputConnection(walk.GetOutputPort())

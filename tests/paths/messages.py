@@ -2,8 +2,8 @@
 """What paths say: errors name what they mean, leave the outputs empty and the next update good; cancelling says nothing."""
 import os
 
-import granular
 import numpy
+import vtkgranular as vg
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
@@ -20,7 +20,7 @@ kept = []
 
 
 def reader_of(name):
-    reader = granular.vtkGranularDumpReader()
+    reader = vg.vtkGranularDumpReader()
     reader.SetController(None)
     reader.AddFileName(os.path.abspath(name))
     reader.said = said_by(reader)
@@ -29,7 +29,7 @@ def reader_of(name):
 
 
 def filter_of(kind, source):
-    made = getattr(granular, f"vtkGranular{kind}")()
+    made = getattr(vg, f"vtkGranular{kind}")()
     made.SetController(None)
     if source.IsA("vtkDataObject"):
         made.SetInputData(source)

@@ -3,8 +3,8 @@
 import gzip
 import os
 
-import granular
 import plain_paths
+import vtkgranular as vg
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 WALK = os.path.join(os.environ["GRANULAR_DATA"], "good", "paths", "walk.dump.gz")
@@ -20,7 +20,7 @@ def write(name, parts):
 
 
 def made_of(kind, paths, **properties):
-    reader, made = granular.vtkGranularDumpReader(), getattr(granular, f"vtkGranular{kind}")()
+    reader, made = vg.vtkGranularDumpReader(), getattr(vg, f"vtkGranular{kind}")()
     for path in paths:
         reader.AddFileName(path)
     made.SetInputConnection(reader.GetOutputPort())

@@ -9,8 +9,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkElevationFilter
 
 import all_ranks
-import granular
 import plain_paths
+import vtkgranular as vg
 from stopping import stopped
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -24,7 +24,7 @@ FORMS = {"Absolute": 0, "Unwrapped": 1}
 
 def alone(kind, names, form, time, **properties):
     """The same by the classes, in this process without the others."""
-    reader, filter_ = granular.vtkGranularDumpReader(), getattr(granular, f"vtkGranular{kind}")()
+    reader, filter_ = vg.vtkGranularDumpReader(), getattr(vg, f"vtkGranular{kind}")()
     for algorithm in (reader, filter_):
         algorithm.SetController(None)
         for event in ("WarningEvent", "ErrorEvent"):
@@ -98,14 +98,14 @@ if all_ranks.symmetric:
     def size_of(output):
         return output.GetNumberOfColumns() if output.IsA("vtkTable") else output.GetNumberOfPoints()
 
-    reader = granular.vtkGranularDumpReader()
+    reader = vg.vtkGranularDumpReader()
     reader.AddFileName(os.path.join(data, "paths", "walk.dump.gz"))
     through = vtkElevationFilter()
     through.SetInputConnection(reader.GetOutputPort())
     for kind, properties in (("Trajectories", {}), ("Trajectories", {"NumberOfSamples": 5}), ("History", {}),
                              ("History", {"OutputType": 1, "MeanSquareDisplacement": True}), ("Compare", {"Differences": "v"})):
         for source in (reader, through):
-            filter_ = getattr(granular, f"vtkGranular{kind}")()
+            filter_ = getattr(vg, f"vtkGranular{kind}")()
             filter_.SetInputConnection(source.GetOutputPort())
             for name, value in properties.items():
                 getattr(filter_, f"Set{name}")(value)

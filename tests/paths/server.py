@@ -2,9 +2,9 @@
 """Paths, tables and comparisons that two ranks of a server make are those of this process alone, and their errors reach the client."""
 import os
 
-import granular
 import numpy
 import plain_paths
+import vtkgranular as vg
 from paraview.simple import *
 from ranks_server import connected
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -16,7 +16,7 @@ LAST = 600
 
 def alone(kind, **properties):
     """The same by the classes, here."""
-    reader, made = granular.vtkGranularDumpReader(), getattr(granular, f"vtkGranular{kind}")()
+    reader, made = vg.vtkGranularDumpReader(), getattr(vg, f"vtkGranular{kind}")()
     reader.AddFileName(WALK)
     made.SetInputConnection(reader.GetOutputPort())
     for name, value in properties.items():
@@ -35,33 +35,33 @@ with open("repeated.dump", "w") as file:
     file.write("".join(rows) + "17 0.5 0.5 0.5\n")
 
 with connected() as server:
-    walk = granular.reader(WALK)
+    walk = vg.reader(WALK)
     paths = GranularTrajectories(Input=walk, Arrays="v", Ids="3 9-20")
     paths.UpdatePipeline(LAST)
     found = plain_paths.lines_of(servermanager.Fetch(paths))
     assert plain_paths.same(dict(sorted(found.items())), lines)
 
-    history = granular.history(walk, ids=[3, 9], arrays="v")
+    history = vg.history(walk, ids=[3, 9], arrays="v")
     assert history["id"].tolist() == [3, 9] and history["timestep"][-1] == LAST
     for i, number in enumerate((3, 9)):
         for name, values in (("position", history["position"]), ("v", history["v"])):
             assert values[:, i].tobytes() == vtk_to_numpy(table.GetArray(f"{name} (id {number})")).tobytes(), name
-    found = granular.fetch(GranularHistory(Input=walk, Output="Statistics", MeanSquareDisplacement=1), time=LAST)
+    found = vg.fetch(GranularHistory(Input=walk, Output="Statistics", MeanSquareDisplacement=1), time=LAST)
     assert found["msd"].tobytes() == vtk_to_numpy(squares.GetArray("msd")).tobytes()
 
-    compared = granular.fetch(GranularCompare(Input=walk), time=LAST)
+    compared = vg.fetch(GranularCompare(Input=walk), time=LAST)
     order, expected = numpy.argsort(compared["id"]), numpy.argsort(vtk_to_numpy(moved.GetArray("id")))
     assert compared["displacement"][order].tobytes() == vtk_to_numpy(moved.GetArray("displacement"))[expected].tobytes()
 
-    bad = granular.reader(os.path.abspath("repeated.dump"))
+    bad = vg.reader(os.path.abspath("repeated.dump"))
     for kind in (GranularTrajectories, GranularHistory, GranularCompare):
         try:
-            granular.update(kind(Input=bad))
+            vg.update(kind(Input=bad))
         except RuntimeError as error:
             assert "got id 17 in rows 16 and 200" in str(error), error
         else:
             raise AssertionError("nothing was raised")
-    granular.update(paths, LAST)
+    vg.update(paths, LAST)
     assert servermanager.Fetch(paths).GetNumberOfCells() == len(lines)
     for proxy in (walk, bad, paths):
         Delete(proxy)

@@ -8,7 +8,7 @@ from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import all_ranks
-import granular
+import vtkgranular as vg
 
 folder = os.path.join(os.environ["GRANULAR_DATA"], "good", "paths")
 STEPS = range(0, 601, 20)
@@ -35,7 +35,7 @@ def whole(proxy):
     return data, order
 
 
-walk = granular.reader(os.path.join(folder, "walk.dump.gz"))
+walk = vg.reader(os.path.join(folder, "walk.dump.gz"))
 between = Calculator(Input=walk, ResultArrayName="twice", Function="2*v")
 for source, arrays in ((walk, "v c_shift"), (between, "v c_shift twice")):
     paths = GranularTrajectories(Input=source, Arrays=arrays)
@@ -50,10 +50,10 @@ for source, arrays in ((walk, "v c_shift"), (between, "v c_shift twice")):
     print("displacements are those of LAMMPS")
 
 # In memory, on each rank by itself: the bits of many ranks are those of one.
-reader = granular.vtkGranularDumpReader()
+reader = vg.vtkGranularDumpReader()
 reader.SetController(None)
 reader.AddFileName(os.path.join(folder, "walk.dump.gz"))
-alone = granular.vtkGranularTrajectories()
+alone = vg.vtkGranularTrajectories()
 alone.SetController(None)
 alone.SetInputConnection(reader.GetOutputPort())
 alone.SetArrays("v")
@@ -70,15 +70,15 @@ assert (vtk_to_numpy(data.GetPoints().GetData()) == vtk_to_numpy(expected.GetPoi
 if all_ranks.ranks.GetNumberOfProcesses() == 1:
     log = table("walk_log.txt")
     for source in walk, between:
-        history = granular.fetch(GranularHistory(Input=source, Output="Statistics", Arrays="v", MeanSquareDisplacement=1))
+        history = vg.fetch(GranularHistory(Input=source, Output="Statistics", Arrays="v", MeanSquareDisplacement=1))
         assert (history["timestep"] == STEPS).all() and (history["particles"] == 30).all()
         assert numpy.abs(history["msd"] - log[:, 5]).max() <= 1e-12 * log[:, 5].max()
         assert numpy.abs(history["msd_xyz"] - log[:, 2:5]).max() <= 1e-12 * log[:, 2:5].max()
     # the second run begins with image counts that are not zero, in a box that changes its size
-    grown = granular.reader(os.path.join(folder, "grown.dump.gz"))
-    found = granular.fetch(GranularTrajectories(Input=grown, Arrays="c_again"))
+    grown = vg.reader(os.path.join(folder, "grown.dump.gz"))
+    found = vg.fetch(GranularTrajectories(Input=grown, Arrays="c_again"))
     assert numpy.abs(found["displacement"] - found["c_again"]).max() < 1e-12
-    history = granular.fetch(GranularHistory(Input=grown, Output="Statistics", MeanSquareDisplacement=1))
+    history = vg.fetch(GranularHistory(Input=grown, Output="Statistics", MeanSquareDisplacement=1))
     assert numpy.abs(history["msd"] - table("grown_log.txt")[:, 5]).max() <= 1e-12 * history["msd"].max()
 
     # choices
@@ -88,28 +88,28 @@ if all_ranks.ranks.GetNumberOfProcesses() == 1:
     assert ids_of(Ids="1-20", EveryNth=7) == [7, 14]
     some = ids_of(NumberOfSamples=5)
     assert len(some) == 5 and some == ids_of(NumberOfSamples=5, Threads=2) != ids_of(NumberOfSamples=5, Seed=1)
-    last = granular.fetch(walk, time=walk.TimestepValues[-1])
+    last = vg.fetch(walk, time=walk.TimestepValues[-1])
     inside = sorted(last["id"][last["points"][:, 2] <= 1].tolist())
     assert ids_of(RegionOfInterest=[1, -1, 1, -1, -10, 1]) == inside
 
     # tails, forwards and back, are those of a new filter
     tail = GranularTrajectories(Input=walk, Tail=3)
     for time in walk.TimestepValues[10], walk.TimestepValues[11], walk.TimestepValues[2], walk.TimestepValues[30]:
-        steps = numpy.unique(granular.fetch(tail, time=time)["timestep"])
+        steps = numpy.unique(vg.fetch(tail, time=time)["timestep"])
         current = 20 * list(walk.TimestepValues).index(time)
         assert steps.tolist() == list(range(max(0, current - 60), current + 1, 20)), steps
 
     # arrays
-    history = granular.history(walk, ids=[4, 9], arrays="v")
+    history = vg.history(walk, ids=[4, 9], arrays="v")
     assert history["id"].tolist() == [4, 9] and history["v"].shape == (31, 2, 3)
-    first = granular.fetch(walk, time=walk.TimestepValues[0])
+    first = vg.fetch(walk, time=walk.TimestepValues[0])
     assert (history["v"][0, 1] == first["v"][first["id"] == 9][0]).all()
 
     # what cannot be
     for properties, said in (({"Arrays": "nothing"}, "got none in any frame"), ({"Ids": "5-"}, "got '5-'"),
                              ({"TimeWindow": [1e6, 2e6]}, "TimeWindow"), ({"SelectionFrame": 31, "NumberOfSamples": 1}, "got 31")):
         try:
-            granular.update(GranularTrajectories(Input=walk, **properties))
+            vg.update(GranularTrajectories(Input=walk, **properties))
         except RuntimeError as error:
             assert said in str(error), error
         else:

@@ -61,7 +61,7 @@ for arguments in (("info", source), ("stats", source), ("stats", "--csv", "--qui
 
 # the manual page is made of the options, and troff understands it; bash completes commands, options and choices
 for kind in ("man", "bash"):
-    subprocess.run([sys.executable, "-m", "granular.command.manual", kind, kind], check=True)
+    subprocess.run([sys.executable, "-m", "vtkgranular.command.manual", kind, kind], check=True)
 page = content("man").decode()
 assert page.startswith(".TH GRANULAR 1") and all(f".SH {name}" in page for name in ("NAME", "SYNOPSIS", "INFO", "CONVERT", "EXIT STATUS"))
 assert "\\-\\-frames" in page and "\\-\\-region" in page

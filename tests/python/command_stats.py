@@ -37,7 +37,7 @@ assert "radius" in granular("show", SOURCE, "--color", "velocity", status=1)[1]
 if importlib.util.find_spec("vtkmodules") and shutil.which("xvfb-run"):
     # in a folder of results, whose Python files are not run
     os.makedirs("results", exist_ok=True)
-    for name in ("json", "numpy", "granular", "vtkmodules", "sitecustomize"):
+    for name in ("json", "numpy", "vtkgranular", "vtkmodules", "sitecustomize"):
         with open(f"results/{name}.py", "w") as module:
             module.write("raise SystemExit('a file of the user was run')\n")
     assert granular("show", SOURCE, "-o", "../shown.png", "--color", "v", "--size", "300x200", cwd="results")[0] == "../shown.png\n"

@@ -6,11 +6,11 @@ from fractions import Fraction
 
 import numpy
 
-import granular
 import plain_data
 import plain_euler
 import plain_local
 import plain_restart
+import vtkgranular as vg
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
 SAMPLES = os.path.join(os.environ["GRANULAR_ROOT"], "samples", "data")
@@ -22,7 +22,7 @@ def content(path):
 
 
 # Euler cells: a series of files, by values; written again as LIGGGHTS wrote them
-run = granular.open(os.path.join(SAMPLES, "euler_*.vtk"), dt=2e-5)
+run = vg.open(os.path.join(SAMPLES, "euler_*.vtk"), dt=2e-5)
 assert run.kind == "euler" and run.steps.tolist() == [1000, 2000, 3000, 4000]
 for frame in run:
     path = os.path.join(SAMPLES, f"euler_{frame.step}.vtk")
@@ -30,32 +30,32 @@ for frame in run:
     assert numpy.array_equal(frame.points, text["centres"])
     for name in plain_euler.ARRAYS:
         assert numpy.array_equal(frame[name].reshape(frame.rows, -1), text[name]), name
-    granular.write("cells.euler", frame)
+    vg.write("cells.euler", frame)
     assert content("cells.euler") == content(path)
 cells = {"points": [[0.5, 0.5, 0.5], [1.5, 0.5, 0.5]], "v_avg": [[1, 2, 3], [1 / 3, 0, 0]], "volumefraction": [0.25, 1 / 3],
          "radius": [0.1, 0.2], "pressure": [1e-300, 5.0]}
-granular.write("mine.euler", cells)
-mine = granular.open("mine.euler")[0]
+vg.write("mine.euler", cells)
+mine = vg.open("mine.euler")[0]
 for name, values in cells.items():
     assert numpy.array_equal(mine.points if name == "points" else mine[name], numpy.asarray(values, dtype=float)), name
 
 # subdomains
-run = granular.open(os.path.join(GOOD, "decomposition_*.vtk"))
+run = vg.open(os.path.join(GOOD, "decomposition_*.vtk"))
 assert run.kind == "decomposition" and len(run) == 2
 frame = run[0]
 assert frame["lo"].shape == frame["hi"].shape == (frame.rows, 3) and (frame["hi"] > frame["lo"]).all()
 volume = numpy.prod(frame["hi"] - frame["lo"], axis=1).sum()
 assert abs(volume / numpy.prod(frame["hi"].max(axis=0) - frame["lo"].min(axis=0)) - 1) < 1e-12  # they fill the box
-granular.write("public.decomposition", frame, dialect="PUBLIC")
+vg.write("public.decomposition", frame, dialect="PUBLIC")
 assert content("public.decomposition") == content(os.path.join(GOOD, "decomposition_1000.vtk"))
 subdomains = {"lo": [[0.0, 0, 0], [1, 0, 0]], "hi": [[1.0, 1, 1], [2, 1, 1]], "nlocal": [10, 20]}
-granular.write("mine.decomposition", subdomains)
-mine = granular.open("mine.decomposition")[0]
+vg.write("mine.decomposition", subdomains)
+mine = vg.open("mine.decomposition")[0]
 assert mine["nlocal"].tolist() == [10, 20] and mine["hi"].tolist() == subdomains["hi"]
 
 # contacts and bonds
 path = os.path.join(SAMPLES, "bonds", "chain_bonds.dump")
-run = granular.open(path, preset="BondTypeIdsForce")
+run = vg.open(path, preset="BondTypeIdsForce")
 texts = plain_local.read(path)
 assert run.kind == "local" and len(run) == len(texts)
 for frame, text in zip(run, texts):
@@ -63,23 +63,23 @@ for frame, text in zip(run, texts):
     for name in frame:
         if name in text.names:
             assert numpy.array_equal(frame[name], text.column(name)), name
-granular.write("bonds.dump", run)
+vg.write("bonds.dump", run)
 own, first = ([line for line in content(name).splitlines() if not line.startswith(b"ITEM: BONDS")] for name in ("bonds.dump", path))
 assert own == first  # but for the names of the columns, which the preset knows
 try:
     run[0].points
-except granular.ColumnError as error:
+except vg.ColumnError as error:
     assert "positions" in str(error) and "id1" in str(error), error
 else:
     raise AssertionError("ends of bonds that only have ids")
 lines = {"id1": [1, 2], "id2": [2, 3], "points": [[[0, 0, 0], [1, 0, 0]], [[1, 0, 0], [1, 1.5, 0]]], "force": [0.1, -2e-300]}
-granular.write("mine.bonds", lines, step=5)
-mine = granular.open("mine.bonds")[0]
+vg.write("mine.bonds", lines, step=5)
+mine = vg.open("mine.bonds")[0]
 assert mine.step == 5 and numpy.array_equal(mine.points, lines["points"]) and mine["force"].tolist() == lines["force"]
 
 # a restart file: particles, and the bonds between them
 path = os.path.join(SAMPLES, "restart", "fibres.20000.restart")
-run = granular.open(path)
+run = vg.open(path)
 frame, text = run[0], plain_restart.Restart(path)
 assert run.kind == "restart" and frame.step == 20000 and frame.rows == len(text.records)
 places = {plain_restart.whole(record[4]): record[1:4] for record in text.records}
@@ -89,15 +89,15 @@ bonds = frame.bonds
 assert bonds.rows > 0 and set(bonds["id1"].tolist()) | set(bonds["id2"].tolist()) <= set(places)
 for id1, id2, (first, second) in zip(bonds["id1"].tolist(), bonds["id2"].tolist(), bonds.points.tolist()):
     assert tuple(first) == tuple(places[id1])
-granular.write("fibres.bonds", bonds)
-granular.write("fibres.dump", frame)
-again = granular.open("fibres.bonds")[0]
+vg.write("fibres.bonds", bonds)
+vg.write("fibres.dump", frame)
+again = vg.open("fibres.bonds")[0]
 assert sorted(zip(again["id1"], again["id2"])) == sorted(zip(bonds["id1"], bonds["id2"]))
-assert numpy.array_equal(granular.open("fibres.dump")[0].points, frame.points)
+assert numpy.array_equal(vg.open("fibres.dump")[0].points, frame.points)
 
 # a data file
 path = os.path.join(SAMPLES, "bonds", "chain.data")
-run = granular.open(path, atom_style="molecular")
+run = vg.open(path, atom_style="molecular")
 frame, atoms = run[0], plain_data.Data(path).rows("Atoms")
 assert run.kind == "data" and frame.rows == len(atoms)
 for number, point in zip(frame["id"].tolist(), frame.points.tolist()):
@@ -110,7 +110,7 @@ with open("tilted.data", "w") as stream:
     stream.write("title\n\n1 atoms\n1 atom types\n")
     stream.writelines(f"{lo} {hi} {axis}lo {axis}hi\n" for (lo, hi), axis in zip(bounds, "xyz"))
     stream.write(f"{' '.join(tilts)} xy xz yz\n\nAtoms # atomic\n\n1 1 1000.2 0 7.1\n")
-box = granular.open("tilted.data")[0].box
+box = vg.open("tilted.data")[0].box
 xy, xz, yz = map(float, tilts)
 edge = [float(Fraction(float(hi)) - Fraction(float(lo))) for lo, hi in bounds]
 assert box.origin.tolist() == [float(lo) for lo, _ in bounds]
@@ -128,7 +128,7 @@ with open("large.data", "w") as stream:
     stream.write("title\n\n50000 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms # atomic\n\n")
     stream.writelines(f"{number} 1 0.5 0.25 0.125\n" for number in range(1, 50001))
 for path, most in ("large.data", 1.1), (os.path.join(SAMPLES, "restart", "fibres.20000.restart"), 3.1):
-    run = granular.open(path)
+    run = vg.open(path)
     before = bytes_read()
     points = run[0].points
     read = (bytes_read() - before) / os.path.getsize(path)

@@ -8,13 +8,13 @@ import threading
 
 import numpy
 
-import granular
+import vtkgranular as vg
 
 SOURCE = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 # Python ends while threads read, one of them in a function for progress
 ENDING = """
-import sys, threading, time, granular
-run, inside = granular.open(sys.argv[1], threads=2), threading.Event()
+import sys, threading, time, vtkgranular as vg
+run, inside = vg.open(sys.argv[1], threads=2), threading.Event()
 
 def slow(fraction):
     inside.set()
@@ -35,7 +35,7 @@ def total(frame):
 
 
 def main():
-    run = granular.open(SOURCE, dt=2e-5, threads=2)
+    run = vg.open(SOURCE, dt=2e-5, threads=2)
     expected = [(frame.step, frame["v"].sum()) for frame in (run[i] for i in range(len(run)))]
 
     # reading ahead gives what reading one by one gives, whichever columns are asked for
@@ -74,7 +74,7 @@ def main():
     # a child does not touch the file that its parent is writing, whatever ends it
     if os.path.exists("parent.dump"):
         os.remove("parent.dump")
-    writer = granular.Writer("parent.dump")
+    writer = vg.Writer("parent.dump")
     writer.write(run[0])
     for leave in (writer.abandon, writer.finish, lambda: writer.write(run[1]), lambda: writer.__del__()):
         child = os.fork()
@@ -89,7 +89,7 @@ def main():
         assert os.waitpid(child, 0)[1] == 0
     writer.write(run[1])
     writer.finish()
-    granular.write("alone.dump", run[:2])
+    vg.write("alone.dump", run[:2])
     with open("parent.dump", "rb") as mine, open("alone.dump", "rb") as alone:
         assert mine.read() == alone.read()
 
@@ -121,7 +121,7 @@ def main():
     try:
         run.read(progress=lambda fraction: run.refresh())  # which would wait for the end of the reading
         raise AssertionError("refreshed")
-    except granular.ArgumentError as error:
+    except vg.ArgumentError as error:
         assert "function for progress" in str(error)
     assert total(run[-1]) == expected[-1] and len(run.refresh()) == len(expected)
     seen = []

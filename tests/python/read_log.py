@@ -9,9 +9,9 @@ import sys
 import tracemalloc
 import warnings
 
-import granular
+import vtkgranular as vg
 
-assert not {"numpy", "vtkmodules", "paraview", "pandas"} & {name.split(".")[0] for name in sys.modules}, "import granular imports these"
+assert not {"numpy", "vtkmodules", "paraview", "pandas"} & {name.split(".")[0] for name in sys.modules}, "import vtkgranular imports these"
 
 import numpy  # noqa: E402
 
@@ -33,7 +33,7 @@ def read(path, *expected, **options):
     """The log, which warns once for each of the texts."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        log = granular.read_log(path, **options)
+        log = vg.read_log(path, **options)
     told = [str(warning.message) for warning in caught]
     assert len(told) == len(expected) and all(part in text for part, text in zip(expected, told)), told
     assert all(warning.filename == __file__ for warning in caught), caught
@@ -137,7 +137,7 @@ assert len(told) == 5 and log.times[log.steps == 120] == 0.44 and log.times[-1] 
 same(one.times, [0, 0.08, 0.16, 0.24, 0.32, 0.4])
 numbers = read(lammps, PRINTED, dt=1e-5).times
 same(numbers, [float(f"{step}e-5") for step in log.steps])
-frames = granular.open(os.path.join(DATA, "..", "grains.dump"), dt=2e-5)
+frames = vg.open(os.path.join(DATA, "..", "grains.dump"), dt=2e-5)
 same(read(written("".join(["Step Temp\n", *(f"{step} 1\n" for step in frames.steps)])), dt=2e-5).times, frames.times)
 
 # ---- the screen, another line end, gzip, and logs one after the other ----
@@ -178,7 +178,7 @@ for number, run in enumerate(log.runs):
 same(log.times, [float(f"{2 * step}e-5") for step in log.steps])
 same(log.runs[3].times, log.runs[3]["Time"])
 assert "KinEng" in log and "kineng" not in log and list(log) == log.columns and log == log
-error = raises(granular.ColumnError, lambda: log["kineng"], "KinEng", "'kineng'")
+error = raises(vg.ColumnError, lambda: log["kineng"], "KinEng", "'kineng'")
 assert isinstance(error, KeyError)
 if importlib.util.find_spec("pandas"):
     with warnings.catch_warnings():
@@ -193,12 +193,12 @@ for name in ("lammps.txt", "liggghts.txt"):
         whole = stream.read()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        rows = granular.read_log(os.path.join(DATA, name)).all_rows
+        rows = vg.read_log(os.path.join(DATA, name)).all_rows
         largest = 0
         for size in range(0, len(whole), 7):
             try:
-                part = granular.read_log(written(whole[:size])).all_rows
-            except granular.Error as error:
+                part = vg.read_log(written(whole[:size])).all_rows
+            except vg.Error as error:
                 assert largest == 0 and "made.txt" in str(error), error
                 continue
             assert largest <= len(part) <= len(rows), size
@@ -209,7 +209,7 @@ for name in ("lammps.txt", "liggghts.txt"):
         # and so it is if the end of compressed data is missing
         packed = gzip.compress(whole)
         for size in range(len(packed) // 2, len(packed) - 8, 101):
-            part = granular.read_log(written(packed[:size], "cut.gz")).all_rows
+            part = vg.read_log(written(packed[:size], "cut.gz")).all_rows
             assert 0 < len(part) <= len(rows)
             for column in part:
                 same(part[column], rows[column][:len(part)])
@@ -353,45 +353,45 @@ for end in (-2, -3):
     assert len(read(written(TABLE[:end]), "made.txt:4: the last line ends early and is left out")) == 2
 
 # ---- what cannot be ----
-error = raises(granular.Error, lambda: granular.read_log(written(TABLE.replace("3 4", "3 four"))), "'four'", "expected a number")
+error = raises(vg.Error, lambda: vg.read_log(written(TABLE.replace("3 4", "3 four"))), "'four'", "expected a number")
 assert (error.path, error.line, error.column) == (os.path.abspath("made.txt"), 3, "Press")
 assert str(error).startswith(f"{error.path}:3: column 'Press': ")
-error = raises(granular.Error, lambda: granular.read_log(written(TABLE.replace("10 3 4", "1x 3 4"))), "'1x'")
+error = raises(vg.Error, lambda: vg.read_log(written(TABLE.replace("10 3 4", "1x 3 4"))), "'1x'")
 assert (error.line, error.column) == (3, "Step")
-error = raises(granular.Error, lambda: granular.read_log(written(MEMORY + TABLE.replace("0 1 2", "0 one 2"))), "made.txt:3", "'one'")
+error = raises(vg.Error, lambda: vg.read_log(written(MEMORY + TABLE.replace("0 1 2", "0 one 2"))), "made.txt:3", "'one'")
 assert error.column == "Temp"
-raises(granular.Error, lambda: granular.read_log(written(TABLE.replace("0 1 2", "0 one 2"))), "made.txt:1: expected rows of numbers")
+raises(vg.Error, lambda: vg.read_log(written(TABLE.replace("0 1 2", "0 one 2"))), "made.txt:1: expected rows of numbers")
 read(written(MEMORY + TABLE.replace("0 1 2", "0 1")), "made.txt:3: expected 3 numbers in a row, got 2; lines like this are left out: 1")
-error = raises(granular.Error, lambda: granular.read_log(written(BLOCKS.replace("inf", "many"))), "made.txt:4", "'many'")
+error = raises(vg.Error, lambda: vg.read_log(written(BLOCKS.replace("inf", "many"))), "made.txt:4", "'many'")
 assert error.column == "Temp"
 log = read(written(TABLE.replace("10 3 4", "10 3")), "made.txt:3: expected 3 numbers in a row, got 2; lines like this are left out: 1")
 assert log.steps.tolist() == [0, 20]
 read(written(TABLE.replace("10 3 4", "10 3 4 5")), "made.txt:3: expected 3 numbers in a row, got 4")
-raises(granular.Error, lambda: granular.read_log(written("")), "made.txt: expected a log, got an empty file")
-raises(granular.Error, lambda: granular.read_log(written(gzip.compress(b""), "empty.gz")), "empty.gz: expected a log, got an empty file")
-error = raises(granular.Error, lambda: granular.read_log(written(TABLE[:20])), "made.txt:1: expected rows of numbers", "Step Temp Press")
+raises(vg.Error, lambda: vg.read_log(written("")), "made.txt: expected a log, got an empty file")
+raises(vg.Error, lambda: vg.read_log(written(gzip.compress(b""), "empty.gz")), "empty.gz: expected a log, got an empty file")
+error = raises(vg.Error, lambda: vg.read_log(written(TABLE[:20])), "made.txt:1: expected rows of numbers", "Step Temp Press")
 assert error.line == 1
-raises(granular.Error, lambda: granular.read_log(written(TABLE[:22])), "made.txt:1: expected rows of numbers")
-raises(granular.Error, lambda: granular.read_log(written("units si\nrun 10\n")), "expected a thermo table", "Step", "got 2 lines")
-raises(granular.Error, lambda: granular.read_log(written("Step Temp\n9223372036854775808 1\n")), "made.txt:2", "9223372036854775808")
+raises(vg.Error, lambda: vg.read_log(written(TABLE[:22])), "made.txt:1: expected rows of numbers")
+raises(vg.Error, lambda: vg.read_log(written("units si\nrun 10\n")), "expected a thermo table", "Step", "got 2 lines")
+raises(vg.Error, lambda: vg.read_log(written("Step Temp\n9223372036854775808 1\n")), "made.txt:2", "9223372036854775808")
 DIGITS = "9" * 5000  # more than Python turns into a number
-error = raises(granular.Error, lambda: granular.read_log(written(f"Step Temp\n0 1\n{DIGITS} 1\n")), "made.txt:3", "got 5000 digits")
+error = raises(vg.Error, lambda: vg.read_log(written(f"Step Temp\n0 1\n{DIGITS} 1\n")), "made.txt:3", "got 5000 digits")
 assert error.column == "Step"
-raises(granular.Error, lambda: granular.read_log(written(BLOCKS.replace("10 -", f"{DIGITS} -"))), "made.txt:3", "got 5000 digits")
-raises(granular.Error, lambda: granular.read_log(written(BLOCKS.replace("10 -", "-9223372036854775809 -"))), "made.txt:3", "got -922337203685477580")
+raises(vg.Error, lambda: vg.read_log(written(BLOCKS.replace("10 -", f"{DIGITS} -"))), "made.txt:3", "got 5000 digits")
+raises(vg.Error, lambda: vg.read_log(written(BLOCKS.replace("10 -", "-9223372036854775809 -"))), "made.txt:3", "got -922337203685477580")
 binary = os.path.join(DATA, "..", "grains.bin")
-error = raises(granular.Error, lambda: granular.read_log(binary), "grains.bin: expected the text of a log, got a binary file")
+error = raises(vg.Error, lambda: vg.read_log(binary), "grains.bin: expected the text of a log, got a binary file")
 assert error.byte >= 0
-raises(granular.Error, lambda: granular.read_log(written(b"\x28\xb5\x2f\xfd0000", "log.zst")), "log.zst", "Zstandard")
+raises(vg.Error, lambda: vg.read_log(written(b"\x28\xb5\x2f\xfd0000", "log.zst")), "log.zst", "Zstandard")
 damaged = bytearray(gzip.compress(whole))
 damaged[len(damaged) // 2] ^= 0xff
-raises(granular.Error, lambda: granular.read_log(written(bytes(damaged), "damaged.gz")), "damaged.gz: expected gzip data")
-raises(FileNotFoundError, lambda: granular.read_log("nowhere.txt"), "nowhere.txt")
-raises(IsADirectoryError, lambda: granular.read_log("."))
+raises(vg.Error, lambda: vg.read_log(written(bytes(damaged), "damaged.gz")), "damaged.gz: expected gzip data")
+raises(FileNotFoundError, lambda: vg.read_log("nowhere.txt"), "nowhere.txt")
+raises(IsADirectoryError, lambda: vg.read_log("."))
 for dt in (0, -1, float("nan"), float("inf")):
-    raises(granular.ArgumentError, lambda: granular.read_log(path, dt=dt), "dt", str(dt))  # noqa: B023
-raises(granular.ArgumentError, lambda: granular.read_log([]), "at least one log")
-raises(granular.ArgumentError, lambda: granular.read_log(path, dt=1e306), "finite times")
+    raises(vg.ArgumentError, lambda: vg.read_log(path, dt=dt), "dt", str(dt))  # noqa: B023
+raises(vg.ArgumentError, lambda: vg.read_log([]), "at least one log")
+raises(vg.ArgumentError, lambda: vg.read_log(path, dt=1e306), "finite times")
 # a long line behind the pairs of a block costs time in proportion to its length, or this would not end
 long = BLOCKS.split("\n")
 log = read(written("\n".join([*long[:2], "a" * (1 << 20), *long[2:]])))
@@ -410,8 +410,8 @@ for _ in range(300):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            granular.read_log(written(bytes(changed)))
-        except granular.Error as error:
+            vg.read_log(written(bytes(changed)))
+        except vg.Error as error:
             assert error.path.endswith("made.txt")
 
 # ---- the page of the guide ----
@@ -422,5 +422,5 @@ os.makedirs("logs", exist_ok=True)
 os.chdir("logs")
 with open("log.liggghts", "wb") as stream:
     stream.write(whole)
-exec(compile(script, "arrays.md", "exec"), {"granular": granular})
+exec(compile(script, "arrays.md", "exec"), {"vg": vg})
 print("logs are the numbers of their tables")

@@ -6,8 +6,8 @@ import re
 import struct
 
 import all_ranks
-import granular
 import plain_euler
+import vtkgranular as vg
 from paraview.simple import *
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -120,7 +120,7 @@ CASES = (
 
 def check(proxy, counts, time=None):
     """What the outputs have; a rank of many that run the script has a part."""
-    granular.update(proxy, time)
+    vg.update(proxy, time)
     for port, count in enumerate(counts):
         told = OutputPort(proxy, port).GetDataInformation()
         found = told.GetNumberOfRows() if told.GetDataClassName() == "vtkTable" else told.GetNumberOfCells()
@@ -129,7 +129,7 @@ def check(proxy, counts, time=None):
 
 def refused(proxy, message, time=None):
     try:
-        granular.update(proxy, time)
+        vg.update(proxy, time)
     except RuntimeError as error:
         assert re.search(message, str(error)), (message, str(error))
     else:
@@ -143,7 +143,7 @@ for make, message, cure, counts in CASES:
     proxy = make()
     refused(proxy, message)
     if cure:
-        granular.set_properties(proxy, **cure)
+        vg.set_properties(proxy, **cure)
         check(proxy, counts)
     Delete(proxy)
 

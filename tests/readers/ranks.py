@@ -5,7 +5,7 @@ import glob
 import os
 
 import all_ranks
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
@@ -71,7 +71,7 @@ def content(data):
 
 def alone(kind, files, time, way):
     """The same by the class, in this process without the others."""
-    reader = getattr(granular, f"vtkGranular{kind}Reader")()
+    reader = getattr(vg, f"vtkGranular{kind}Reader")()
     reader.SetController(None)
     for name in files:
         reader.AddFileName(name)

@@ -3,8 +3,8 @@
 import glob
 import os
 
-import granular
 import plain_euler
+import vtkgranular as vg
 from paraview.simple import *
 from ranks_server import connected
 
@@ -34,7 +34,7 @@ SESSIONS = (
 
 
 def check(proxy, properties, time, counts):
-    granular.set_properties(proxy, **properties)
+    vg.set_properties(proxy, **properties)
     proxy.UpdatePipeline(*([] if time is None else [time]))
     for port, count in enumerate(counts):
         told = OutputPort(proxy, port).GetDataInformation()
@@ -69,12 +69,12 @@ def restart(reader):
 def euler(reader):
     for output in ("Points", "ImageData"):
         reader.Output = output
-        granular.save(reader, os.path.abspath("again_*.euler"))
+        vg.save(reader, os.path.abspath("again_*.euler"))
         with open("again_4000.euler") as written, open(os.path.join(GOOD, "euler_4000.vtk")) as original:
             assert written.read() == original.read(), output
         os.remove("again_4000.euler")
     cut = Slice(Input=reader, SliceType="Plane")
-    granular.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
+    vg.set_properties(cut.SliceType, Origin=[0.001, 0, 0], Normal=[1, 0, 0])
     drawn(cut, 27)
 
 
@@ -87,7 +87,7 @@ def decomposition(divided):
         check(domains, {}, None, (4,))
         assert domains.GetDataInformation().GetBounds() == (-0.05, 0.05, -0.05, 0.05, 0, 0.15)
     assert counted.CellData["nlocal"].GetRange() == by_grid.CellData["nlocal"].GetRange()
-    granular.save(by_grid, os.path.abspath("counted_*.vtk"))
+    vg.save(by_grid, os.path.abspath("counted_*.vtk"))
     written = OpenDataFile(os.path.abspath("counted_2000.vtk"))
     written.UpdatePipeline()
     assert written.CellData["nlocal"].GetRange() == by_grid.CellData["nlocal"].GetRange()

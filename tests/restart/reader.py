@@ -7,7 +7,7 @@ import plain_restart
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from said import said_by
 
-import granular
+import vtkgranular as vg
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good", "restart")
 shared = os.path.join(os.environ["GRANULAR_DATA"], "..", "..", "..", "shared", "data")
@@ -19,7 +19,7 @@ class Read:
     """The outputs, and all that was said."""
 
     def __init__(self, *names, time=None, **properties):
-        reader = granular.vtkGranularRestartReader()
+        reader = vg.vtkGranularRestartReader()
         reader.SetController(None)
         self.said = said_by(reader)
         for name in names:
@@ -176,7 +176,7 @@ assert vtk_to_numpy(moved.lines.GetFieldData().GetArray("PointOrigin")).ravel().
 for pieces in (2, 3, 5, 40):
     points, cells = [], []
     for piece in range(pieces):
-        reader = granular.vtkGranularRestartReader()
+        reader = vg.vtkGranularRestartReader()
         reader.SetController(None)
         reader.AddFileName(good("fibres.restart"))
         reader.UpdatePiece(piece, pieces, 0)

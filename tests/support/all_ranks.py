@@ -2,7 +2,7 @@
 """What the ranks of a script have together."""
 import os
 
-import granular
+import vtkgranular as vg
 from paraview.simple import servermanager
 from vtkmodules.vtkIOXML import vtkXMLPImageDataReader, vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -25,7 +25,7 @@ def whole(proxy, time=None, kind="vtkPolyData"):
     proxy.UpdatePipeline(*([] if time is None else [time]))
     ending, reader = _FILES[kind]
     name = os.path.abspath("whole" + ending)
-    granular.save(proxy, name)
+    vg.save(proxy, name)
     wait()
     file = reader()
     file.SetFileName(name)

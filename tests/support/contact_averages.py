@@ -4,8 +4,8 @@ import itertools
 
 import numpy
 
-import granular
 import plain_contacts as plain
+import vtkgranular as vg
 from contact_sums import arrays_of, local_of, reader_of
 from said import said_by
 
@@ -28,7 +28,7 @@ class Averages:
 
     def __init__(self, name, kind="EulerAverage", lines=True, walls=True, on=tuple(ALL), **properties):
         self.particles = reader_of("Dump", name)
-        self.filter = getattr(granular, "vtkGranular" + kind)()
+        self.filter = getattr(vg, "vtkGranular" + kind)()
         self.filter.SetController(None)
         self.filter.SetInputConnection(0, self.particles.GetOutputPort())
         if lines:

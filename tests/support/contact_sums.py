@@ -2,8 +2,8 @@
 """Files of contacts through the classes of the library: readers, and the filter vtkGranularContactSums."""
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-import granular
 import plain_contacts
+import vtkgranular as vg
 from said import said_by
 
 NAMES = ["coordination", "contact_force", "contact_torque", "fabric", "contact_stress", "principal_stress", "von_mises",
@@ -11,7 +11,7 @@ NAMES = ["coordination", "contact_force", "contact_torque", "fabric", "contact_s
 
 
 def reader_of(kind, name, **properties):
-    reader = getattr(granular, f"vtkGranular{kind}Reader")()
+    reader = getattr(vg, f"vtkGranular{kind}Reader")()
     reader.SetController(None)
     reader.AddFileName(plain_contacts.path(name))
     for key, value in properties.items():
@@ -34,7 +34,7 @@ class Sums:
 
     def __init__(self, name, walls=True, rows=False, on=NAMES, lines=True, local=None, **properties):
         self.particles = reader_of("Dump", name)
-        self.filter = granular.vtkGranularContactSums()
+        self.filter = vg.vtkGranularContactSums()
         self.filter.SetController(None)
         self.filter.SetInputConnection(0, self.particles.GetOutputPort())
         self.contacts = local_of(name + "_contacts", **(local or {}))

@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 
-from granular._ranks import mpirun_environment
+from vtkgranular._ranks import mpirun_environment
 from paraview.simple import Connect, Disconnect
 
 

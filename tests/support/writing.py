@@ -4,7 +4,7 @@ import os
 import shutil
 
 import all_ranks
-import granular
+import vtkgranular as vg
 from paraview.simple import ProgrammableFilter, servermanager
 
 
@@ -39,7 +39,7 @@ def files():
 
 def lonely(kind, **properties):
     """An object of class vtkGranular<kind> that knows of no other process."""
-    made = getattr(granular, f"vtkGranular{kind}")()
+    made = getattr(vg, f"vtkGranular{kind}")()
     made.SetController(None)
     for name, value in properties.items():
         getattr(made, f"Set{name}")(*value if isinstance(value, tuple) else (value,))
@@ -80,7 +80,7 @@ def check_refused(proxy, name, error=RuntimeError, **properties):
     """Saving raises the error, and the folder stays as it was."""
     before = files()
     try:
-        granular.save(proxy, name, **properties)
+        vg.save(proxy, name, **properties)
     except error as raised:
         assert error is not RuntimeError or len(str(raised)) > 20, raised
         print(raised)

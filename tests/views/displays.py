@@ -3,8 +3,8 @@
 stand for many."""
 import os
 
-import granular
 import numpy
+import vtkgranular as vg
 from discs import black_view, picture
 from paraview import servermanager
 from paraview.simple import *
@@ -15,7 +15,7 @@ GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
 PIXELS = 200
 view = black_view(PIXELS)
 
-reader = granular.reader(os.path.join(GOOD, "grains.dump"))
+reader = vg.reader(os.path.join(GOOD, "grains.dump"))
 reader.UpdatePipeline(2000)
 view.ViewTime = 2000
 bounds = reader.GetDataInformation().GetBounds()
@@ -26,8 +26,8 @@ box = Clip(Input=reader, ClipType="Box")
 threshold = Threshold(Input=clip, Scalars=["POINTS", "type"], LowerThreshold=1, UpperThreshold=2)
 chosen = ExtractSelection(Input=reader, Selection=SelectionQuerySource(QueryString="id <= 300", ElementType="Point Data"))
 calculated = Calculator(Input=reader, Function="mag(v)", ResultArrayName="speed")
-alien = granular.reader(os.path.join(GOOD, "shapes", "computes.dump"))
-dots = granular.reader(os.path.join(GOOD, "ortho_plain.dump"))
+alien = vg.reader(os.path.join(GOOD, "shapes", "computes.dump"))
+dots = vg.reader(os.path.join(GOOD, "ortho_plain.dump"))
 dots.UpdatePipeline()  # a box of ParaView 6 is empty where nothing has been read
 groups = {"dots": Clip(Input=dots, ClipType="Box"), "computes": Threshold(Input=alien, Scalars=["POINTS", "type"], LowerThreshold=1, UpperThreshold=1),
           "clip": clip, "box": box, "threshold": threshold, "selection": chosen, "calculator": calculated}
@@ -50,7 +50,7 @@ glyphs = Glyph(Input=reader, GlyphType="Sphere", ScaleArray=["POINTS", "radius"]
 circles = Slice(Input=glyphs)
 circles.SliceType.Origin, circles.SliceType.Normal = middle, [0, 1, 0]
 for name, source in {"glyphs": glyphs, "circles": circles, "ball": Sphere(),
-                     "contacts": granular.reader(os.path.join(GOOD, "local", "contacts.dump"), ColumnMap="pos id force"),
+                     "contacts": vg.reader(os.path.join(GOOD, "local", "contacts.dump"), ColumnMap="pos id force"),
                      "paths": TemporalParticlesToPathlines(Input=reader, MaskPoints=1),
                      "voxels": PointVolumeInterpolator(Input=reader)}.items():
     source.UpdatePipeline(2000)
@@ -69,7 +69,7 @@ def window():
 
 
 def white(source):
-    display = granular.show(source, view)
+    display = vg.show(source, view)
     display.Ambient, display.Diffuse, display.AmbientColor, display.DiffuseColor = 1, 0, [1, 1, 1], [1, 1, 1]
     display.ColorArrayName = [None, ""]
     return display

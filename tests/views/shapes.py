@@ -3,10 +3,10 @@
 by them, in the arrays and in the picture."""
 import os
 
-import granular
 import numpy
 import plain_data
 import ray_caster
+import vtkgranular as vg
 from discs import black_view, picture
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -45,7 +45,7 @@ def plainly(name):
 
 def compare(source, half, sizes, turns, powers, columns):
     """The picture and the ray caster's."""
-    display = granular.show(source, view)
+    display = vg.show(source, view)
     display.Ambient, display.Diffuse, display.AmbientColor, display.DiffuseColor = 1, 0, [1, 1, 1], [1, 1, 1]
     display.ColorArrayName = [None, ""]
     points = numpy.stack([columns[name] for name in X], 1)
@@ -61,7 +61,7 @@ def compare(source, half, sizes, turns, powers, columns):
 
 for name, half, *wanted, arrays in TABLE:
     columns = plainly(name)
-    source = granular.reader(os.path.join(HERE, name))
+    source = vg.reader(os.path.join(HERE, name))
     source.UpdatePipeline()
     read = source.GetClientSideObject().GetOutputDataObject(0)
     rows = numpy.argsort(vtk_to_numpy(read.GetPointData().GetArray("id")))
@@ -87,15 +87,15 @@ for name in ("ellipsoids", "superellipsoids"):
 
 # a dump that is written has the columns of the one that was read, to the byte
 for name in ("by_hand.dump", "ellipsoids.dump", "superellipsoids.dump", "computes.dump"):
-    granular.save(granular.reader(os.path.join(HERE, name)), "again.dump")
+    vg.save(vg.reader(os.path.join(HERE, name)), "again.dump")
     with open(os.path.join(HERE, name)) as old, open("again.dump") as new:
         old, new = old.read(), new.read()
         assert old[old.index("ITEM: ATOMS"):].split() == new[new.index("ITEM: ATOMS"):].split(), name
 # and so have chosen arrays: half axes must not become diameters by a name
 for name in ("superellipsoids.data", "superellipsoids.dump", "by_hand.dump"):
-    source = granular.reader(os.path.join(HERE, name), **({"Boundary": "pp pp ff"} if name.endswith(".data") else {}))
-    granular.save(source, "chosen.dump", Columns=["id", "x", "y", "z", "shape", "quat", "blockiness"])
-    first, again = (granular.fetch(each) for each in (source, granular.reader("chosen.dump")))
+    source = vg.reader(os.path.join(HERE, name), **({"Boundary": "pp pp ff"} if name.endswith(".data") else {}))
+    vg.save(source, "chosen.dump", Columns=["id", "x", "y", "z", "shape", "quat", "blockiness"])
+    first, again = (vg.fetch(each) for each in (source, vg.reader("chosen.dump")))
     said = [each.GetFieldDataInformation().GetArray("ShapeSizes").GetStringValue(0) for each in (source, GetActiveSource())]
     assert all((first[array] == again[array]).all() for array in ("id", "shape", "quat", "blockiness")) and said[0] == said[1], name
 print("all shapes compared")

@@ -3,9 +3,9 @@
 superquadrics, near and far, from outside and inside; other surfaces cut them where they meet; hidden ones change no pixel."""
 import sys
 
-import granular
 import numpy
 import ray_caster
+import vtkgranular as vg
 from discs import ROUNDED, black_view, made, picture
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -20,7 +20,7 @@ view.RemoteRenderThreshold = 1e9
 
 
 def shown(source):
-    display = granular.show(source, view)
+    display = vg.show(source, view)
     display.Ambient, display.Diffuse = 1, 0
     display.AmbientColor = display.DiffuseColor = [1, 1, 1]
     return display
@@ -168,7 +168,7 @@ for parallel in (0, 1):
     view.CameraParallelScale = 12
     pictures, depths = [], []
     for sources in ([whole], halves):
-        displays = [granular.show(source, view) for source in sources]
+        displays = [vg.show(source, view) for source in sources]
         for display, name in zip(displays, ["id"] if len(sources) == 1 else ["number", "number"]):
             ColorBy(display, ("POINTS", name))
             colors = GetColorTransferFunction(name)

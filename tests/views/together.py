@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Particles beside what else ParaView draws: a volume, ambient occlusion and translucency take a ball as they take one made of triangles;
 a frustum selects the particles in it, and no hidden one is selected on the surface."""
-import granular
 import numpy
 import ray_caster
+import vtkgranular as vg
 from discs import black_view, made, picture
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -19,7 +19,7 @@ def compare(what, grains, mesh, outline):
     for source in (grains, mesh):
         display = Show(source, view)
         if source is grains:
-            display = granular.show(source, view)
+            display = vg.show(source, view)
         display.ColorArrayName, display.DiffuseColor, display.AmbientColor = [None, ""], [1, 1, 1], [1, 1, 1]
         display.Specular = 0
         pictures.append(picture(view, what))
@@ -52,7 +52,7 @@ assert abs(compare("open", heap, balls, 60) - occluded).max(axis=2).max() > 30
 
 # the side towards the camera, one layer a particle
 pair = made([[0, 0, 0], [0, 0, 3]], radius=[2.0, 1.0])
-display = granular.show(pair, view)
+display = vg.show(pair, view)
 display.ColorArrayName, display.Opacity, display.Ambient, display.Diffuse = [None, ""], 0.5, 1, 0
 display.AmbientColor = display.DiffuseColor = [1, 1, 1]
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 20], [0, 0, 0], [0, 1, 0]
@@ -66,7 +66,7 @@ colors, opacities = numpy.array([[200, 0, 0], [0, 150, 0], [90, 0, 250]], numpy.
 shapes = {"shape": numpy.full((3, 3), [1, 0.7, 0.8]), "quat": numpy.full((3, 4), [1, 0.1, 0.2, 0.3])}
 for arrays in {}, shapes, {**shapes, "blockiness": numpy.full((3, 2), [3., 6])}:
     three = made([[-2.5, 0, 0], [0, 0, 0], [2.5, 0, 0]], radius=numpy.ones(3), color=colors, seen=opacities, **arrays)
-    display = granular.show(three, view)
+    display = vg.show(three, view)
     ColorBy(display, ("POINTS", "color"))
     display.MapScalars, display.Ambient, display.Diffuse, display.Specular = 0, 1, 0, 0
     for solid in 1, 0:
@@ -79,7 +79,7 @@ for arrays in {}, shapes, {**shapes, "blockiness": numpy.full((3, 2), [3., 6])}:
 # ---- selection -----------------------------------------------------------------------------------------------------------
 cloud = numpy.random.default_rng(2).uniform(-1, 1, (500, 3))
 particles = made(cloud, radius=numpy.full(500, 0.15))
-display = granular.show(particles, view)
+display = vg.show(particles, view)
 view.CameraPosition, view.CameraParallelProjection, view.CameraParallelScale = [0, 0, 5], 1, 1.25
 Render(view)
 rectangle = [0, 0, PIXELS // 2, PIXELS // 2]

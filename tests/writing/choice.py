@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which writer granular.save and SaveData take, and what is refused. The arguments name the systems whose writers these
+"""Which writer vg.save and SaveData take, and what is refused. The arguments name the systems whose writers these
 are."""
 import sys
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 from writing import check_refused, content, enter_empty_folder, good
 
 
 def saved(proxy, name, **properties):
-    granular.save(proxy, name, **properties)
+    vg.save(proxy, name, **properties)
     return content(name)
 
 

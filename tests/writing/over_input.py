@@ -4,7 +4,7 @@ when it is refreshed."""
 import os
 
 import all_ranks
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 from writing import content, good
 
@@ -23,7 +23,7 @@ def wipe(*begins):
 def check_not_refreshed(shown, name, expected, form):
     """A reader whose files are others by now either knows it or has the frame in memory: no file is a mixture."""
     try:
-        granular.save(shown, name, **form)
+        vg.save(shown, name, **form)
     except RuntimeError as error:
         assert "the file changed since it was indexed; reload the files" in str(error), error
     for file, bytes in expected.items():
@@ -33,7 +33,7 @@ def check_not_refreshed(shown, name, expected, form):
 def check(kind, sources, name, attributes, adds, **form):
     """Saves what a reader shows over the files that it reads, twice; `name` has * for a file a frame."""
     source = kind(FileNames=[good(source) for source in sources])
-    granular.save(source, name, **form)
+    vg.save(source, name, **form)
     Delete(source)
     all_ranks.wait()
     begin, end = name.split("*") if "*" in name else (name, "")
@@ -41,10 +41,10 @@ def check(kind, sources, name, attributes, adds, **form):
     assert own, name
     reader = kind(FileNames=[os.path.abspath(file) for file in own])
     shown = Calculator(Input=reader, AttributeType=attributes, ResultArrayName="added", Function="7") if adds else reader
-    granular.save(shown, "other_" + name, **form)
+    vg.save(shown, "other_" + name, **form)
     expected = {file: content("other_" + file) for file in own}
     for times in range(2):  # the second time over what it has written itself
-        granular.save(shown, name, **form)
+        vg.save(shown, name, **form)
         for file in own:
             assert content(file) == expected[file], (file, form, times)
         check_not_refreshed(shown, name, expected, form)
@@ -54,7 +54,7 @@ def check(kind, sources, name, attributes, adds, **form):
         data = getattr(reader, attributes.replace(" ", ""))
         arrays = [data.GetArray(i).Name for i in range(data.NumberOfArrays)]
         assert "added" in arrays, arrays
-    granular.save(reader, "other_" + name, **form)
+    vg.save(reader, "other_" + name, **form)
     for file in own:
         assert content("other_" + file) == expected[file], file
     Delete(shown)
@@ -85,8 +85,8 @@ def check_shared(**form):
     all_ranks.wait()
     reader = GranularDumpReader(FileNames=[os.path.abspath(f"a_{step}.dump") for step in (0, 2000)])
     shown = Calculator(Input=reader, ResultArrayName="added", Function="7")
-    granular.save(shown, "other_a_*.dump", WriteTimeSteps=1, **form)
-    granular.save(shown, "a_link/a_*.dump", WriteTimeSteps=1, **form)
+    vg.save(shown, "other_a_*.dump", WriteTimeSteps=1, **form)
+    vg.save(shown, "a_link/a_*.dump", WriteTimeSteps=1, **form)
     for step in (0, 1000, 2000):
         assert content(f"a_{step}.dump") == content(f"other_a_{step}.dump"), step
     Delete(shown)
@@ -103,7 +103,7 @@ def check_shared(**form):
         reader = GranularDumpReader(FileNames=[os.path.abspath(name) for name in names])
         for output in outputs:
             try:
-                granular.save(Calculator(Input=reader, Function="7"), output, time=2000, **form)
+                vg.save(Calculator(Input=reader, Function="7"), output, time=2000, **form)
                 raise AssertionError(output)
             except RuntimeError as error:
                 assert "one that is read" in str(error) and ("not complete" in str(error)) == ("piece" not in output), error

@@ -5,11 +5,11 @@ import os
 import sys
 
 import all_ranks
-import granular
 import numpy
 import plain_dump
 import plain_euler
 import plain_local
+import vtkgranular as vg
 from paraview.simple import *
 from writing import alone, content, empty_on, good, lonely
 
@@ -19,7 +19,7 @@ STEPS = (1000, 2000, 3000, 4000)  # of the files of Euler cells
 
 
 def saved(proxy, name, **properties):
-    granular.save(proxy, name, **properties)
+    vg.save(proxy, name, **properties)
     return content(name)
 
 
@@ -51,7 +51,7 @@ def dump_of_programs(reader):
         atom = {"WriteTimeSteps": 1, "Style": "Atom", "Scaled": 0, "Image": 1, "ParallelMode": mode}
         assert saved_data(image, "a.bin", **atom) == content(good("ortho_image.bin")), mode
     for step, frame in zip((0, 1000, 2000), whole.split(b"ITEM: TIMESTEP")[1:]):
-        granular.save(reader, "step_*.dump.gz", WriteTimeSteps=1, Dialect="LIGGGHTS")
+        vg.save(reader, "step_*.dump.gz", WriteTimeSteps=1, Dialect="LIGGGHTS")
         assert gzip.decompress(content(f"step_{step}.dump.gz")) == b"ITEM: TIMESTEP" + frame
 
 
@@ -68,7 +68,7 @@ def dump_of_one_process(reader):
 
 def dump_of_each_process(reader):
     """One file a process; their number is returned, which without --sym only ParaView knows."""
-    granular.save(reader, "piece_*.%.dump", WriteTimeSteps=1, Dialect="LIGGGHTS")
+    vg.save(reader, "piece_*.%.dump", WriteTimeSteps=1, Dialect="LIGGGHTS")
     content("piece_0.0.dump")
     names = [f"piece_{step}.{i}.dump" for step in (1000, 2000) for i in range(8)
              if os.path.exists(f"piece_{step}.{i}.dump")]
@@ -121,7 +121,7 @@ def local():
     whole = plain_local.read(good("local/contacts.dump"))[2]
     local_without_rows(contacts, whole)
     # one file a process
-    granular.save(contacts, "piece_*.%.bonds", WriteTimeSteps=1, Dialect="LIGGGHTS")
+    vg.save(contacts, "piece_*.%.bonds", WriteTimeSteps=1, Dialect="LIGGGHTS")
     content("piece_2000.0.bonds")
     pieces = [plain_local.read(f"piece_2000.{i}.bonds")[0] for i in range(RANKS)]
     assert [row[6:] for piece in pieces for row in piece.rows] == [row[6:] for row in whole.rows]
@@ -130,7 +130,7 @@ def local():
 def local_of_one_process():
     """Real files, as lines, split and not, and as tables."""
     ways = ["MinimumImage", "Split", "AsWritten"]
-    reader_class = granular.vtkGranularLocalReader
+    reader_class = vg.vtkGranularLocalReader
     for file, preset, port, way in (("contacts.dump", "ContactsForce", 0, 0), ("contacts.dump", "ContactsForce", 0, 1),
                                     ("contacts.dump", "ContactsForce", 0, 2),
                                     ("chain_bonds.dump", "BondTypeIdsForce", 1, 0)):
@@ -188,7 +188,7 @@ def euler():
     parallel = GranularEulerReader(FileNames=[good("euler/parallel_2000.vtk")])
     for output in ("Points", "ImageData"):  # of an image each rank has a part
         series.Output = parallel.Output = output
-        granular.save(series, "real_*.euler", WriteTimeSteps=1)
+        vg.save(series, "real_*.euler", WriteTimeSteps=1)
         for step in STEPS:
             assert content(f"real_{step}.euler") == content(good(f"euler_{step}.vtk")), (output, step)
         assert saved(parallel, "parallel.euler") == content(good("euler/parallel_2000.vtk")), output
@@ -197,7 +197,7 @@ def euler():
     series.Output = "Points"
     holes = empty_on(0, series)
     holes.UpdatePipeline(2000)
-    granular.save(holes, "holes_*.euler")  # the others know the timestep
+    vg.save(holes, "holes_*.euler")  # the others know the timestep
     content("holes_2000.euler")
     found, whole = plain_euler.read("holes_2000.euler"), plain_euler.read(good("euler_2000.vtk"))
     left = 0 if RANKS == 1 else 112 // RANKS
@@ -257,14 +257,14 @@ def decomposition():
     reader.AddFileName(good("grains.dump"))
     counts.SetInputConnection(reader.GetOutputPort())
     for end in (".vtk", ".vtu"):
-        granular.save(domains, "step_*" + end, WriteTimeSteps=1)
+        vg.save(domains, "step_*" + end, WriteTimeSteps=1)
         for step in (0, 1000, 2000):
             counts.UpdateTimeStep(step)
             assert content(f"step_{step}{end}") == alone(writer, counts, end), (step, end)
 
     holes = empty_on(0, domains)
     holes.UpdatePipeline(2000)
-    granular.save(holes, "holes_*.vtk", **own)  # the other ranks know the timestep
+    vg.save(holes, "holes_*.vtk", **own)  # the other ranks know the timestep
     text = content("holes_2000.vtk")
     assert b"nlocal 1 " in text and text.startswith(b"# vtk DataFile Version 3.0"), text[:300]
 

@@ -5,7 +5,7 @@ The arguments name the systems whose writers these are."""
 import os
 import sys
 
-import granular
+import vtkgranular as vg
 from paraview.simple import *
 from writing import changed_on, check_refused, good
 
@@ -51,7 +51,7 @@ def check(source, faults, forms):
     for form in forms:
         for proxy, name in [*faults, (source, "gone/" + old)]:
             check_refused(proxy, name, **form)
-        granular.save(source, new, **form)
+        vg.save(source, new, **form)
         os.remove(new)
 
 

@@ -8,14 +8,14 @@ import math
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-import granular
+import vtkgranular as vg
 from scene import Rounds, main, open_dump, read_again, points_of, scientific, table
 
 FRACTION = 0.3
 SPEED = 1.0       # vx = SPEED * sin(2 pi z), and fluctuations of half of it
-WEIGHTS = {"Centre": granular.vtkGranularEulerAverage.CENTRE, "Overlap": granular.vtkGranularEulerAverage.OVERLAP}
-KERNELS = {"Gaussian": granular.vtkGranularEulerAverage.GAUSSIAN, "Lucy": granular.vtkGranularEulerAverage.LUCY,
-           "Heaviside": granular.vtkGranularEulerAverage.HEAVISIDE}
+WEIGHTS = {"Centre": vg.vtkGranularEulerAverage.CENTRE, "Overlap": vg.vtkGranularEulerAverage.OVERLAP}
+KERNELS = {"Gaussian": vg.vtkGranularEulerAverage.GAUSSIAN, "Lucy": vg.vtkGranularEulerAverage.LUCY,
+           "Heaviside": vg.vtkGranularEulerAverage.HEAVISIDE}
 
 
 def radius_of(particles):
@@ -23,7 +23,7 @@ def radius_of(particles):
 
 
 def packing(particles, seed):
-    source = granular.vtkGranularPackingSource()
+    source = vg.vtkGranularPackingSource()
     source.SetNumberOfGrains(particles)
     source.SetBoxLengths(1, 1, 1)
     source.SetBoundary("pp pp pp")
@@ -39,7 +39,7 @@ def write_run(study, name, particles, frames, moves):
     random = numpy.random.default_rng(11)
     path = study.folder / f"{name}.dump"
     points = packing(particles, 1)
-    with granular.Writer(str(path), numbers="%.17g") as writer:
+    with vg.Writer(str(path), numbers="%.17g") as writer:
         for frame in range(frames):
             if moves and frame:
                 points = packing(particles, 1 + frame)
@@ -47,12 +47,12 @@ def write_run(study, name, particles, frames, moves):
             v[:, 0] += SPEED * numpy.sin(2 * math.pi * points[:, 2])
             writer.write({"id": numpy.arange(1, particles + 1), "type": numpy.ones(particles, int), "points": points, "v": v,
                           "radius": numpy.full(particles, radius_of(particles)), "mass": numpy.ones(particles)},
-                         box=granular.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=frame)
+                         box=vg.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=frame)
     return path
 
 
 def average_of(reader, weights, cells, **properties):
-    average = granular.vtkGranularEulerAverage()
+    average = vg.vtkGranularEulerAverage()
     average.SetInputConnection(reader.GetOutputPort())
     for name, value in {"Threads": 1, "CellCounts": (cells,) * 3, "Weights": weights, **properties}.items():
         getattr(average, "Set" + name)(*value if isinstance(value, tuple) else (value,))

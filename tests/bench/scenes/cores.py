@@ -8,7 +8,7 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-import granular
+import vtkgranular as vg
 from scene import Packing, Rounds, main, open_dump, read_again, table
 
 
@@ -47,14 +47,14 @@ def works(study, path, packing, threads):
     """verb: work that returns a checksum of its result."""
     reader = open_dump(path, Threads=threads)
     data = read_again(open_dump(path))
-    average = granular.vtkGranularEulerAverage()
+    average = vg.vtkGranularEulerAverage()
     average.SetInputData(data)
     average.SetCellCounts(20, 20, 20)
     average.SetWeights(average.OVERLAP)
-    sums = granular.vtkGranularContactSums()
+    sums = vg.vtkGranularContactSums()
     sums.SetInputData(data)
     sums.SetInputDataObject(1, contacts_of(data))
-    writer = granular.vtkGranularDumpWriter()
+    writer = vg.vtkGranularDumpWriter()
     writer.SetInputData(data)
     out = study.folder / f"{threads}.dump"
     writer.SetFileName(str(out))

@@ -69,7 +69,7 @@ class InParaView:
     """Grains, or the representation of ParaView that plays a sphere."""
 
     def __init__(self, data, side, discs):
-        import granular
+        import vtkgranular as vg
         from paraview import simple
 
         self.source = simple.TrivialProducer()
@@ -77,11 +77,11 @@ class InParaView:
         self.view = simple.CreateView("RenderView", ViewSize=list(SIZE), OrientationAxesVisibility=0)
         self.view.LODThreshold = self.view.RemoteRenderThreshold = 1e9
         Camera(self.view.GetActiveCamera(), side, 1)
-        display = granular.show(self.source, self.view, color="v")
+        display = vg.show(self.source, self.view, color="v")
         if discs:
             display.SetRepresentationType("Point Gaussian")
-            granular.set_properties(display, ShaderPreset="Sphere", SetScaleArray=["POINTS", "radius"], ScaleByArray=1,
-                                    UseScaleFunction=0, GaussianRadius=1)
+            vg.set_properties(display, ShaderPreset="Sphere", SetScaleArray=["POINTS", "radius"], ScaleByArray=1,
+                              UseScaleFunction=0, GaussianRadius=1)
         simple.Render(self.view)
         self.camera = self.view.GetActiveCamera()
         self.delete = lambda: (simple.Delete(self.view), simple.Delete(self.source))
@@ -201,7 +201,7 @@ SCENES = {"quick": [(1000, False, SPHERES, 1, 1, (1,)), (1000, True, ("Grains", 
 
 def study_of(study):
     kinds = ["large", "full"] if study.large else ["quick" if study.quick else "full"]
-    build, told = Path(granular.__file__).resolve().parents[4], {}
+    build, told = Path(vg.__file__).resolve().parents[4], {}
     for kind in kinds:
         run = subprocess.run(["sh", "-c", '. "$0/environment" && exec "$@"', build, ROOT / "cmake" / "with_display", "pvpython", "--dr",
                               __file__, "--inside", kind], stdout=subprocess.PIPE, text=True, check=True)
@@ -222,7 +222,7 @@ if "--inside" in sys.argv:
     for scene in SCENES[sys.argv[sys.argv.index("--inside") + 1]]:
         measure(*scene)
 else:
-    import granular
+    import vtkgranular as vg
     from scene import main, table
 
     main(study_of)

@@ -7,7 +7,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOInfovis import vtkDelimitedTextReader
 
-import granular
+import vtkgranular as vg
 from scene import LATTICE, Packing, Rounds, array_of, main, open_dump, points_of, read_again, scientific, table
 
 OURS = "vtk-granular, 1 thread"
@@ -20,7 +20,7 @@ def read_ours(path):
 
 
 def read_arrays(path):
-    frame = granular.open(path).read(threads=1)
+    frame = vg.open(path).read(threads=1)
     return numpy.column_stack((frame["points"], frame["v"], frame["f"]))
 
 
@@ -60,7 +60,7 @@ def read_vtk(path):
 # name: (function, module that must be there)
 READERS = {
     OURS: (read_ours, None),
-    "granular.open, 1 thread": (read_arrays, None),
+    "vg.open, 1 thread": (read_arrays, None),
     "numpy.loadtxt": (read_loadtxt, None),
     "pandas.read_csv": (read_pandas, "pandas"),
     "VTK, vtkDelimitedTextReader": (read_vtk, None),
@@ -75,16 +75,16 @@ def conversions(study):
     arrays = {"id": numpy.arange(1, packing.rows + 1), "type": numpy.ones(packing.rows, int), "points": packing.points, "v": packing.v,
               "f": packing.f, "radius": packing.radius}
     path = str(study.folder / "series.dump")
-    with granular.Writer(path, numbers="%g") as writer:
+    with vg.Writer(path, numbers="%g") as writer:
         for step in range(10):
-            writer.write(arrays, box=granular.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=step)
-    run, frames, times = granular.open(path), [frame.read() for frame in granular.open(path)], Rounds(10 * packing.rows, time.perf_counter)
+            writer.write(arrays, box=vg.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=step)
+    run, frames, times = vg.open(path), [frame.read() for frame in vg.open(path)], Rounds(10 * packing.rows, time.perf_counter)
     ways = {"text of six columns": (".dump", {"columns": "id type x y z radius"}), "Zstandard": (".dump.zst", {})}
     times.add("read", lambda: [run[i].read() for i in range(10)])
     for name, (ending, how) in ways.items():
         out = str(study.folder / f"out{ending}")
-        times.add(f"write {name}", lambda out=out, how=how: granular.write(out, frames, **how))
-        times.add(f"convert to {name}", lambda out=out, how=how: granular.write(out, run, **how))
+        times.add(f"write {name}", lambda out=out, how=how: vg.write(out, frames, **how))
+        times.add(f"convert to {name}", lambda out=out, how=how: vg.write(out, run, **how))
     times.run(study.pick(3, 1))
     return table(["case", "time ns/particle", "against reading and writing"], [
         [f"`{case}`", f"{times.ns(case):.0f}", f"{times.ns(case) / (times.ns('read') + times.ns(case.replace('convert to', 'write'))):.2f}"

@@ -6,7 +6,7 @@ changes a little from frame to frame. Ids have no order in space."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-import granular
+import vtkgranular as vg
 from scene import Rounds, main, open_dump, table
 
 SELECTED = 1000
@@ -26,7 +26,7 @@ class Walk:
         self.places, self.random = places, random
 
     def write(self, path):
-        with granular.Writer(str(path), numbers="%g") as writer:
+        with vg.Writer(str(path), numbers="%g") as writer:
             for step, places in enumerate(self.places):
                 images = numpy.floor(places)
                 cells = ((places - images) * CELLS).astype(int) @ (1, CELLS, CELLS * CELLS)
@@ -34,7 +34,7 @@ class Walk:
                 noise = self.random.standard_normal((len(rows), 6))
                 writer.write({"id": self.ids[rows], "type": numpy.ones(len(rows), int), "points": (places - images)[rows],
                               "image": images[rows].astype(int), "v": noise[:, :3], "f": noise[:, 3:], "radius": abs(noise[:, 0])},
-                             box=granular.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=step)
+                             box=vg.Box((0, 0, 0), (1, 1, 1), boundary="pp pp pp"), step=step)
         return path
 
 
@@ -73,11 +73,11 @@ def filter_on(reader, kind, **properties):
 
 
 def paths(path):
-    return filter_on(open_run(path, "id"), granular.vtkGranularTrajectories, Threads=1, NumberOfSamples=SELECTED)
+    return filter_on(open_run(path, "id"), vg.vtkGranularTrajectories, Threads=1, NumberOfSamples=SELECTED)
 
 
 def squares(path):
-    return filter_on(open_run(path, "id"), granular.vtkGranularHistory, Threads=1, OutputType=granular.vtkGranularHistory.STATISTICS,
+    return filter_on(open_run(path, "id"), vg.vtkGranularHistory, Threads=1, OutputType=vg.vtkGranularHistory.STATISTICS,
                      MeanSquareDisplacement=True)
 
 

@@ -15,13 +15,13 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OM
 
 def inside(path, rounds):
     """Rank 0 prints the rows of all ranks and the seconds of each way."""
-    import granular
+    import vtkgranular as vg
     from vtkmodules.vtkCommonCore import vtkIdTypeArray
     from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
 
     ranks = vtkMultiProcessController.GetGlobalController()
     for how, sort in HOW.items():
-        reader, seconds = granular.vtkGranularDumpReader(), []
+        reader, seconds = vg.vtkGranularDumpReader(), []
         reader.AddFileName(path)
         reader.SetThreads(1)
         reader.SetSortById(sort)

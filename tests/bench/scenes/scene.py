@@ -16,7 +16,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkObject
 
-import granular
+import vtkgranular as vg
 
 LATTICE = 63  # cells of the lattice along the box
 STRAIN = 0.05
@@ -147,7 +147,7 @@ class Packing:
 
 def open_dump(path, **properties):
     """A reader of one thread that has looked at the headers."""
-    reader = granular.vtkGranularDumpReader()
+    reader = vg.vtkGranularDumpReader()
     reader.AddFileName(str(path))
     for name, value in {"Threads": 1, **properties}.items():
         getattr(reader, "Set" + name)(*value if isinstance(value, (tuple, list)) else (value,))

@@ -8,7 +8,7 @@ import numpy
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
-import granular
+import vtkgranular as vg
 from scene import (COLUMNS, SMALLEST, Packing, Rounds, array_of, largest, lengths, main, open_dump, points_of, read_again, scientific,
                    table)
 
@@ -62,7 +62,7 @@ UNITS = {"position": " radii", "velocity": " of the rms velocity", "force": " of
 
 
 def dump_writer(data, path, **properties):
-    writer = granular.vtkGranularDumpWriter()
+    writer = vg.vtkGranularDumpWriter()
     writer.SetInputData(data)
     writer.SetFileName(path)
     for name, value in {"Dialect": 1, "Columns": " ".join(COLUMNS), "Threads": 1, **properties}.items():

@@ -243,7 +243,7 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 ParaView's writers. VTK's XML gets inline data, as with DataMode Binary, which all versions of libexpat read.
                 Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*` stands for the
                 timestep, and in those of dumps `%` for the rank.
-    time        the time to write, as for granular.update
+    time        the time to write, as for vtkgranular.update
     writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
                 files of any name. None: see path.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...

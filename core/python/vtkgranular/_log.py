@@ -73,7 +73,7 @@ class _Table:
 
     @property
     def times(self) -> numpy.ndarray:
-        """The times, shape (rows,), float64: see granular.read_log."""
+        """The times, shape (rows,), float64: see vtkgranular.read_log."""
         return self._times
 
     def __getitem__(self, name: str) -> numpy.ndarray:
@@ -140,7 +140,7 @@ class LogTable(_Table):
 
 
 class Log(_Table):
-    """The thermo output of a simulation, from granular.read_log: each timestep once, in ascending order.
+    """The thermo output of a simulation, from vtkgranular.read_log: each timestep once, in ascending order.
 
     log["KinEng"]         a column, shape (rows,), float64; "Step" is int64. The arrays are read-only.
     log.columns           the names of all columns, also list(log)
@@ -649,9 +649,9 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
     last row that ends early, because a simulation may be writing it; lines of numbers that are no rows of their table; tables without
     rows that fit their header; tables without the column Step, if others have it. If none has it, the rows are numbered from 0.
 
-    Raises FileNotFoundError if there is no such file; granular.Error with path, line and column if a row has a word in place of a
+    Raises FileNotFoundError if there is no such file; vtkgranular.Error with path, line and column if a row has a word in place of a
     number, if a file is binary or empty, if a line has 4 MiB or more, if the content of a compressed log exceeds 256 MiB and 200 times
-    its size, and if it has no table with rows; granular.ArgumentError for a dt that cannot be.
+    its size, and if it has no table with rows; vtkgranular.ArgumentError for a dt that cannot be.
     """
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     if not given:

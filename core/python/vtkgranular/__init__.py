@@ -3,40 +3,40 @@
 
 Arrays, with numpy alone:
 
-    run = granular.open("post/*.dump", dt=2e-5)   the frames of a run
+    run = vtkgranular.open("post/*.dump", dt=2e-5)   the frames of a run
     run[-1]["v"]                              an array of the last frame
     run.read(columns=["id", "v"], stride=10)  a part of a frame
-    granular.write("new.dump", {"points": x}) a file from arrays or frames
-    granular.read_log("log.liggghts")         the thermo output of a run: its columns as arrays
-    granular.Run, Frame, Box, Writer, Log, Error   what these return, take and raise
+    vtkgranular.write("new.dump", {"points": x}) a file from arrays or frames
+    vtkgranular.read_log("log.liggghts")         the thermo output of a run: its columns as arrays
+    vtkgranular.Run, Frame, Box, Writer, Log, Error   what these return, take and raise
 
 Open, show, fetch and save with paraview.simple:
 
-    granular.reader("post/*.dump", dt=2e-5)   the reader that fits the files
-    granular.show(reader, color="v", box=True)   particles as spheres, and the simulation box
-    granular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
-    granular.history(reader, [1, 7], "v")     places and arrays of particles at all times
-    granular.save(filter, "run.dump")         a file of the format that fits the data and the name
-    granular.update(filter, time=0.02)        an update that raises its errors
+    vtkgranular.reader("post/*.dump", dt=2e-5)   the reader that fits the files
+    vtkgranular.show(reader, color="v", box=True)   particles as spheres, and the simulation box
+    vtkgranular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
+    vtkgranular.history(reader, [1, 7], "v")     places and arrays of particles at all times
+    vtkgranular.save(filter, "run.dump")         a file of the format that fits the data and the name
+    vtkgranular.update(filter, time=0.02)        an update that raises its errors
 
 Around them:
 
-    granular.load_plugin()                    loads the plugin into paraview.simple
-    granular.files("post/*.%.dump.gz")        the names of the files of a run
-    granular.load_state("run.pvsm")           a state file, also after its folder was moved
-    granular.write_series(files, dt)          a .series file: times for STL and VTK files
-    granular.pvbatch("script.py", ranks=4)    a script on several ranks
-    granular.set_pool_limit(mib)              memory that readers keep for the next frame
+    vtkgranular.load_plugin()                    loads the plugin into paraview.simple
+    vtkgranular.files("post/*.%.dump.gz")        the names of the files of a run
+    vtkgranular.load_state("run.pvsm")           a state file, also after its folder was moved
+    vtkgranular.write_series(files, dt)          a .series file: times for STL and VTK files
+    vtkgranular.pvbatch("script.py", ranks=4)    a script on several ranks
+    vtkgranular.set_pool_limit(mib)              memory that readers keep for the next frame
 
 The same in all versions of ParaView:
 
-    granular.preset("Plasma")                 the name of a colour preset
-    granular.label_format("%.1f")             properties for the numbers of a colour bar
-    granular.process_ids(filter)              a filter that gives each point its rank
-    granular.set_properties(proxy, ...)       several properties at once
+    vtkgranular.preset("Plasma")                 the name of a colour preset
+    vtkgranular.label_format("%.1f")             properties for the numbers of a colour bar
+    vtkgranular.process_ids(filter)              a filter that gives each point its rank
+    vtkgranular.set_properties(proxy, ...)       several properties at once
 
-help(granular.open) describes one function. The VTK classes, such as granular.vtkGranularDumpReader, work in pvpython and in
-plain python3; help(granular.vtkGranularDumpReader) describes one with all that it inherits. Importing this package imports
+help(vtkgranular.open) describes one function. The VTK classes, such as vtkgranular.vtkGranularDumpReader, work in pvpython and in
+plain python3; help(vtkgranular.vtkGranularDumpReader) describes one with all that it inherits. Importing this package imports
 neither numpy nor VTK nor ParaView: what needs them imports them when it is called.
 """
 from __future__ import annotations
@@ -50,7 +50,7 @@ from ._files import files
 from ._folders import VERSION as __version__
 from ._library import ArgumentError, Cancelled, ColumnError, Error
 from ._log import Log, LogTable, read_log
-from ._run import Box, Frame, Run, open  # noqa: A004 (granular.open, as there are gzip.open and wave.open)
+from ._run import Box, Frame, Run, open  # noqa: A004 (vtkgranular.open, as there are gzip.open and wave.open)
 from ._write import Writer, write
 
 if TYPE_CHECKING:
@@ -88,11 +88,11 @@ def __getattr__(name: str) -> Any:
         try:
             classes = importlib.import_module(".vtkGranular", __name__)
         except ImportError as error:
-            raise ImportError(f"granular.{name} needs VTK and the compiled classes of this package (Debian: "
-                              f"python3-granular-paraview): {error}") from error
+            raise ImportError(f"vtkgranular.{name} needs VTK and the compiled classes of this package (Debian: "
+                              f"python3-vtkgranular-paraview): {error}") from error
         value = classes if name == "vtkGranular" else getattr(classes, name)
     else:
-        raise AttributeError(f"module 'granular' has no attribute {name!r}")
+        raise AttributeError(f"module 'vtkgranular' has no attribute {name!r}")
     globals()[name] = value
     return value
 

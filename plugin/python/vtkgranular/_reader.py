@@ -50,14 +50,14 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
 
     The first reader with times sets the animation: it plays these times, and SaveAnimation writes a picture for each.
 
-    paths       a file, a pattern as the `dump` command has it (see granular.files), or a list of these: the files of one
+    paths       a file, a pattern as the `dump` command has it (see vtkgranular.files), or a list of these: the files of one
                 run. Particle dumps, contacts and bonds, restart files, data files, decompositions and Euler cells are told
                 apart by their contents.
     dt          the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the
                 files hold times.
     properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
 
-    The plugin must be loaded: see granular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for
+    The plugin must be loaded: see vtkgranular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for
     a property that there is not, ValueError for a name that is not UTF-8, and RuntimeError with the file's message, which names
     path, line or byte, and column, if the file cannot be read.
     """

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes the manual page and the completion of bash from the options of the command.
 
-    python3 -m granular.command.manual man granular.1
-    python3 -m granular.command.manual bash granular
+    python3 -m vtkgranular.command.manual man granular.1
+    python3 -m vtkgranular.command.manual bash granular
 """
 from __future__ import annotations
 

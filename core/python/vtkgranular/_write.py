@@ -77,12 +77,12 @@ def ending_of(path: str) -> str:
 
 
 class Writer:
-    """A file that is being written: see granular.write, which makes one.
+    """A file that is being written: see vtkgranular.write, which makes one.
 
     The file appears under its name when the block is left without an error; until then the old file is untouched. With `*` in the
     name, each frame has a file, which appears when it is complete.
 
-        with granular.Writer("run.dump") as writer:
+        with vtkgranular.Writer("run.dump") as writer:
             writer.write({"points": x, "v": v}, box=box, step=100)
     """
 
@@ -127,7 +127,7 @@ class Writer:
         "points" has the positions of particles, shape (n, 3), or of cells; lines have "points" of shape (n, 2, 3), both ends, and
         "id1", "id2", and need the style "local" or the ending .bonds; subdomains have "lo", "hi" and, if known, "nlocal" and
         "proc".
-        box    a granular.Box, or three pairs of bounds; None: made from the bounds of the particles
+        box    a vtkgranular.Box, or three pairs of bounds; None: made from the bounds of the particles
         step   the timestep; time, units: the time and ITEM: UNITS of the frame, which the first frame decides for all
         """
         if self._finished:
@@ -194,8 +194,8 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
               .bin and .lammpsbin (binary dumps), .dump, .lammpstrj, .liggghts, .lammps, .dmp and names that begin with "dump" (text),
               compressed if .gz or .zst follows. With `*` in the name, which stands for the timestep, each frame has a file.
     data      a Frame; a Run, a slice of one or an iterable of frames; or arrays by their names: "points", shape (n, 3), and any
-              others with n rows. See granular.Writer for lines, cells and subdomains.
-    box       a granular.Box, or three pairs of bounds; None: made from the bounds of the particles. Box, step, time and units
+              others with n rows. See vtkgranular.Writer for lines, cells and subdomains.
+    box       a vtkgranular.Box, or three pairs of bounds; None: made from the bounds of the particles. Box, step, time and units
               belong to arrays; frames have their own.
     style     "custom", "atom", "local", "euler", "decomposition", with any name; empty: by the data and the ending
     dialect   "LIGGGHTS" or "LAMMPS"; of decompositions "PUBLIC" or "INL", of cells "LIGGGHTS" or "Wide"; empty: that of the file
@@ -205,14 +205,14 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     label     the word for rows of contacts and bonds
     scaled, image  of style "atom": xs ys zs (default) or x y z; also ix iy iz
     sort      True: rows in the order of their ids
-    threads   0 (default): one per core; progress: as for granular.open
+    threads   0 (default): one per core; progress: as for vtkgranular.open
     durable   True: the file is on the disk before it gets its name, and survives a loss of power; False: the system writes it when
               it likes, and a file that is written in a loop takes less time; None (default): True for one file, False with `*`
 
     A file appears when it is complete; after an error the old file is untouched. With `*`, that holds for each file: those of earlier
     frames are there. A file of the run that a frame comes from, under any name, is replaced after the last frame.
 
-    Raises granular.Error with path and column; granular.ArgumentError for arrays of a wrong shape or type, masked values, two arrays
+    Raises vtkgranular.Error with path and column; vtkgranular.ArgumentError for arrays of a wrong shape or type, masked values, two arrays
     with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame. Two frames
     of one timestep are an error. It is an error to replace a file of the run that has an incomplete frame, because a simulation may
     be writing it, or pieces of frames.

@@ -132,10 +132,10 @@ def main() -> None:
     from vtkmodules.vtkIOImage import vtkPNGWriter
     from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
-    import granular
+    import vtkgranular
 
     given = json.load(sys.stdin)
-    frame = granular.open(given["files"], **given["options"])[given["frame"]].read()
+    frame = vtkgranular.open(given["files"], **given["options"])[given["frame"]].read()
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)
     window.SetOffScreenRendering(True)

@@ -17,7 +17,7 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
             **properties: Any) -> dict[str, numpy.ndarray]:
     """Returns places and arrays of single particles at all times, as a dict of numpy arrays.
 
-    reader      a source or filter of paraview.simple with particles, such as granular.reader returns
+    reader      a source or filter of paraview.simple with particles, such as vtkgranular.reader returns
     ids         ids of at most 1000 particles: a number, a list, or a text like "5 10-20 100-900:50". Empty: all
     arrays      names of point arrays, as one text or a list
     properties  others of GranularHistory: EveryNth, NumberOfSamples, RegionOfInterest, TimeWindow, FrameStride, ...
@@ -27,7 +27,7 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
     "position"          unwrapped: continuous across periodic faces, shape (frames, particles, 3); nan where a particle is absent
     names of arrays     shape (frames, particles) or (frames, particles, components)
 
-    Of a reader only ids, positions and these arrays are read. Raises RuntimeError as granular.update does.
+    Of a reader only ids, positions and these arrays are read. Raises RuntimeError as vtkgranular.update does.
     """
     import numpy
     from paraview import servermanager

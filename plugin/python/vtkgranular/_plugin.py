@@ -13,7 +13,7 @@ def expect_plugin(there: bool) -> None:
     """Raises RuntimeError unless the plugin is there."""
     if not there:
         raise RuntimeError("expected the plugin Granular, got a ParaView without it: load it first, as with "
-                           "granular.load_plugin()")
+                           "vtkgranular.load_plugin()")
 
 
 def has_plugin() -> bool:

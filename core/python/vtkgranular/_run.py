@@ -28,7 +28,7 @@ _Columns = namedtuple("_Columns", "usual others sizes words")
 
 _COORDINATES = ("absolute", "unwrapped", "scaled")
 _STEPS = ("auto", "merge", "last")
-# Options of granular.open, and the properties of readers of ParaView that mean the same.
+# Options of vtkgranular.open, and the properties of readers of ParaView that mean the same.
 _PROPERTIES = {"column_names": "ColumnNames", "preset": "Preset", "column_map": "ColumnMap", "atom_style": "AtomStyle"}
 
 
@@ -566,7 +566,7 @@ class RunSlice(_Frames):
 
 
 class Run(_Frames):
-    """The frames of one or more files, from granular.open: a sequence of frames.
+    """The frames of one or more files, from vtkgranular.open: a sequence of frames.
 
     len(run), run[-1], run[10:20:5], for frame in run
     run.steps, run.times   timesteps and times of all frames
@@ -742,8 +742,8 @@ class Run(_Frames):
         threads      0 (default): one per core
         progress     is called with fractions from 0 to 1; it returns False to stop
 
-        region, stride, coordinates and sort are for particles of dumps and data files. Raises granular.Error with path, line
-        and column; granular.ArgumentError for what cannot be, among them a column that there is not; IndexError for a frame that
+        region, stride, coordinates and sort are for particles of dumps and data files. Raises vtkgranular.Error with path, line
+        and column; vtkgranular.ArgumentError for what cannot be, among them a column that there is not; IndexError for a frame that
         there is not.
         """
         return self._part(self[frame].number, columns=columns, region=region, stride=stride, coordinates=coordinates,
@@ -774,7 +774,7 @@ class Run(_Frames):
         return self
 
     def reader(self, **properties: Any) -> Any:
-        """Returns the ParaView reader of the same files: see granular.reader."""
+        """Returns the ParaView reader of the same files: see vtkgranular.reader."""
         from . import reader
 
         own = {name: words_of(self._options[option]) for option, name in _PROPERTIES.items() if option in self._options}
@@ -822,7 +822,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
          repeated_steps: str = "auto", threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
     """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
 
-    paths           a file, a pattern such as "post/*.dump", or a list of these; see granular.files. Dumps in every form, contacts
+    paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files. Dumps in every form, contacts
                     and bonds (dump local), restart files, data files, decompositions and Euler cells are told apart by their contents.
     dt              the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the files
                     hold times.
@@ -835,7 +835,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
 
     The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
-    be writing it: `granular check` reports it. Raises FileNotFoundError if there is no such file, granular.Error
+    be writing it: `granular check` reports it. Raises FileNotFoundError if there is no such file, vtkgranular.Error
     with path, line and column if the files cannot be read, ValueError for a choice that there is not. Remarks that are no errors
     are warnings.
     """

@@ -153,7 +153,7 @@ _OTHERS = {  # without a status: result and arguments
 _IO_ERROR, _BAD_ARGUMENT, _CANCELLED, _NO_MEMORY = 1, 5, 6, 7
 
 
-# The names of settings in messages, which readers share, and those of granular.open.
+# The names of settings in messages, which readers share, and those of vtkgranular.open.
 _SETTINGS = {"AtomStyle": "atom_style", "ColumnMap": "column_map", "ColumnNames": "column_names", "Preset": "preset",
              "RepeatedSteps to Merge": 'repeated_steps to "merge"', "TimestepSize": "dt"}
 

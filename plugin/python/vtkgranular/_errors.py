@@ -13,7 +13,7 @@ def expect_utf8(path: str) -> str:
     try:
         path.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"expected a name in UTF-8, as ParaView takes them, got {shown(path)}: granular.open and granular.write "
+        raise ValueError(f"expected a name in UTF-8, as ParaView takes them, got {shown(path)}: vtkgranular.open and vtkgranular.write "
                          "take any name") from None
     return path
 

@@ -37,7 +37,7 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 
 
 def add_reading(parser: argparse.ArgumentParser) -> None:
-    """Adds the options of granular.open."""
+    """Adds the options of vtkgranular.open."""
     group = parser.add_argument_group("reading")
     group.add_argument("--dt", type=float, metavar="T", help="time of one timestep, in the unit of the run (default: times are timesteps)")
     group.add_argument("--kind", choices=KINDS,
@@ -58,9 +58,9 @@ def add_frames(parser: argparse.ArgumentParser) -> None:
 
 def open_run(arguments: argparse.Namespace) -> Any:
     """Returns the run of the files."""
-    import granular
+    import vtkgranular
 
-    return granular.open(arguments.files, dt=arguments.dt, kind=arguments.kind, column_names=arguments.column_names,
+    return vtkgranular.open(arguments.files, dt=arguments.dt, kind=arguments.kind, column_names=arguments.column_names,
                          preset=arguments.preset, column_map=arguments.column_map, atom_style=arguments.atom_style,
                          repeated_steps=arguments.repeated_steps, threads=arguments.threads)
 

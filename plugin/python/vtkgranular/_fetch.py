@@ -90,7 +90,7 @@ def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) 
 
     proxy  a source or filter of paraview.simple, or one of its output ports
     port   the output, by number or name: "Box", "Bonds". None: the first, or the port that proxy is.
-    time   the time to update to, as for granular.update
+    time   the time to update to, as for vtkgranular.update
 
     The keys, in this order; where two have the same name the first one counts:
     "points"                  the points, shape (n, 3); for lines, both ends of each line
@@ -101,7 +101,7 @@ def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) 
     "dimensions", "origin", "spacing"  of images: points along x, y, z, and where they are
 
     On several ranks the first rank gets the whole, and the others what they hold. The arrays are read-only views of the
-    pipeline's memory, which stays as long as they do; copy an array to change it. Raises RuntimeError as granular.update does,
+    pipeline's memory, which stays as long as they do; copy an array to change it. Raises RuntimeError as vtkgranular.update does,
     ValueError for an output that there is not.
     """
     import numpy
