@@ -61,9 +61,9 @@ bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
 }
 }
 
-vtkStandardNewMacro(vtkSMGranularParticlesDomain);
+vtkStandardNewMacro(vtkSMGranularGrainsDomain);
 
-int vtkSMGranularParticlesDomain::SetDefaultValues(vtkSMProperty* property, bool)
+int vtkSMGranularGrainsDomain::SetDefaultValues(vtkSMProperty* property, bool)
 {
   vtkSMProxy* display = property->GetParent();
   if (display && display->GetProperty("Representation") &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * @class   vtkSMGranularParticlesDomain
+ * @class   vtkSMGranularGrainsDomain
  * @brief   Makes particles come up as Grains.
  *
  * The readers' hints tell ParaView to show particles as Grains. Without this domain, ParaView shows a filter's output as a surface: specks
@@ -8,20 +8,20 @@
  * when they are made for particles: data with the field data `Coordinates` and `PointOrigin` of the readers and as many cells as points,
  * and so must be all data between the reader and these. Data without cells are particles if the reader or one of some filters made them.
  *
- * Made for elements GranularParticlesDomain of the server manager's XML; the property Input is required.
+ * Made for elements GranularGrainsDomain of the server manager's XML; the property Input is required.
  */
 
-#ifndef vtkSMGranularParticlesDomain_h
-#define vtkSMGranularParticlesDomain_h
+#ifndef vtkSMGranularGrainsDomain_h
+#define vtkSMGranularGrainsDomain_h
 
 #include "vtkGranularServerManagerModule.h" // For export macro
 #include "vtkSMDomain.h"
 
-class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularParticlesDomain : public vtkSMDomain
+class VTKGRANULARSERVERMANAGER_EXPORT vtkSMGranularGrainsDomain : public vtkSMDomain
 {
 public:
-  static vtkSMGranularParticlesDomain* New();
-  vtkTypeMacro(vtkSMGranularParticlesDomain, vtkSMDomain);
+  static vtkSMGranularGrainsDomain* New();
+  vtkTypeMacro(vtkSMGranularGrainsDomain, vtkSMDomain);
 
   /**
    * Sets the property Representation of the proxy. The given property stays as it is.
@@ -29,12 +29,12 @@ public:
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
 protected:
-  vtkSMGranularParticlesDomain() = default;
-  ~vtkSMGranularParticlesDomain() override = default;
+  vtkSMGranularGrainsDomain() = default;
+  ~vtkSMGranularGrainsDomain() override = default;
 
 private:
-  vtkSMGranularParticlesDomain(const vtkSMGranularParticlesDomain&) = delete;
-  void operator=(const vtkSMGranularParticlesDomain&) = delete;
+  vtkSMGranularGrainsDomain(const vtkSMGranularGrainsDomain&) = delete;
+  void operator=(const vtkSMGranularGrainsDomain&) = delete;
 };
 
 #endif
