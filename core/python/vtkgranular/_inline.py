@@ -13,8 +13,8 @@ _ARRAY = re.compile(rb'<((?:Data)?Array) ([^>]*?)format="appended"([^>]*?) *offs
 _PART = 3 << 20  # bytes that become base64 at a time: a multiple of 3
 
 
-def put_inline(path: str) -> None:
-    """Moves the raw appended data of a VTK file into its arrays, as base64. Other files stay as they are.
+def put_inline(path: str, declaration: bytes = b"") -> None:
+    """Moves the raw appended data of a VTK file into its arrays, as base64, behind a declaration of XML. Other files stay as they are.
 
     Appended data are no XML: some versions of libexpat refuse them, raw and base64 alike. VTK writes inline data itself, but ends the
     program when a disk is full then.
@@ -29,6 +29,7 @@ def put_inline(path: str) -> None:
             if not arrays or head.count(b'format="appended"') != len(arrays):
                 return
             with open(path + ".inline", "wb") as new:
+                new.write(declaration)
                 _write(old, head, old.find(b"_", end) + 1, arrays, new)
     os.replace(path + ".inline", path)
 

@@ -135,7 +135,7 @@ def _write_vtk(frame: Any, path: str, ending: str) -> None:
     writer.SetInputData(data)
     if not writer.Write():
         raise OSError(f"{shown(path)}: VTK could not write it")
-    put_inline(path)
+    put_inline(path, b'<?xml version="1.0"?>\n')  # VTK leaves it out of raw files, which are no XML
 
 
 _STREAM_WRITERS = {".npz": _write_npz, ".csv": _write_csv}
