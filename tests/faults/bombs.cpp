@@ -109,7 +109,7 @@ std::string restart_base(std::int64_t rows)
 /// The count of doubles and the particles of a process.
 std::vector<Part> process(std::int64_t rows)
 {
-  const restart_builder::Record record = restart_builder::particles(1, 1).front();
+  const restart_builder::Record record = ::particles(1, 1).front();
   const auto doubles = static_cast<std::int32_t>(rows * static_cast<std::int64_t>(record.size()));
   return { { std::string(reinterpret_cast<const char*>(&doubles), sizeof doubles),
     std::string(reinterpret_cast<const char*>(record.data()), 8 * record.size()) } };

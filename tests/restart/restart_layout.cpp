@@ -492,7 +492,7 @@ TEST(RestartLayout, FixesOfNoParticles)
   for (const bool particles : { false, true })
   {
     file.peratom_fixes = { { "p\x01", "property/atom", 4 } };
-    file.chunks = { particles(1, particles ? 1 : 0) };
+    file.chunks = { ::particles(1, particles ? 1 : 0) };
     granular::Notices notices;
     granular::Progress progress;
     const std::string bytes = file.file();
