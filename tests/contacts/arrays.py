@@ -112,9 +112,9 @@ assert sums.filter.GetLinesOutput().GetNumberOfCells() == 0
 normal = bed_without("force", "force_tangential", "torque")
 normal.choose([name for name in NAMES if name != "mobilised_friction"])
 normal = made_by(normal)
-particles, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
+all_particles, contacts, walls = (kind("bed" + what, 70000) for kind, what in (
     (plain.Particles, ""), (plain.Contacts, "_contacts"), (plain.Contacts, "_walls")))
-expected = sum(plain.add_up(particles, each, each.named["force_normal"], each.named["force_normal"] * sign)
+expected = sum(plain.add_up(all_particles, each, each.named["force_normal"], each.named["force_normal"] * sign)
                for each, sign in ((contacts, -1), (walls, 1)))
 assert abs(normal["contact_force"] - expected).max() < 1e-16
 # torques, contact points and overlaps that are not there change what depends on them, and nothing else

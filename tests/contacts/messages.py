@@ -52,7 +52,7 @@ def table_of(arrays):
     return made
 
 
-def particles(**other):
+def all_particles(**other):
     """Three in a row, 2 apart; other arrays, or None for none of that name."""
     arrays = {"id": [1, 2, 3], "radius": [1.0, 1.0, 1.0], **other}
     return data_of([[0, 0, 0], [2, 0, 0], [4, 0, 0]], {name: values for name, values in arrays.items() if values is not None})
@@ -75,7 +75,7 @@ def walls(**other):
 def made_of(particles=None, lines=None, walls=None, on=NAMES[:5], **properties):
     made = vg.vtkGranularContactSums()
     made.SetController(None)
-    made.SetInputDataObject(0, particles or particles())
+    made.SetInputDataObject(0, particles or all_particles())
     for port, data in ((1, lines), (2, walls)):
         if data:
             made.SetInputDataObject(port, data)
@@ -129,25 +129,25 @@ assert array(good, "contact_force").tolist() == [[-4, 1, 3], [-2, -1, 0], [6, 0,
 refused("expected contacts: the input Lines, Walls, or both, got none", 1, pairs())
 works(made_of(lines=pairs()))
 works(made_of(walls=walls()))
-refused("expected a vtkPointSet of particles, got a vtkImageData", 0, particles(), particles=vtkImageData(), lines=pairs())
-refused("expected a vtkPointSet of particles, got a vtkMultiBlockDataSet: the filter MergeBlocks makes one of it", 0, particles(),
+refused("expected a vtkPointSet of particles, got a vtkImageData", 0, all_particles(), particles=vtkImageData(), lines=pairs())
+refused("expected a vtkPointSet of particles, got a vtkMultiBlockDataSet: the filter MergeBlocks makes one of it", 0, all_particles(),
         particles=vtkMultiBlockDataSet(), lines=pairs())
 KINDS = "expected lines as cells of a vtkDataSet, or a vtkTable with a row for each, got a vtkMultiBlockDataSet: the filter MergeBlocks makes one of it"
 refused(KINDS, 1, pairs(), lines=vtkMultiBlockDataSet())
 refused(KINDS, 2, walls(), walls=vtkMultiBlockDataSet())
 refused("expected lines as cells, got a cell of the VTK type 5 in row 0 (the first is 0)", 1, pairs(),
         lines=pairs(points=ENDS + ENDS[:2], cells=3))
-vertices = particles()
+vertices = all_particles()
 for name, values in ROWS.items():
     vertices.GetCellData().AddArray(array_of(name, values + values[:1]))
 refused("expected lines as cells, got a cell of the VTK type 1 in row 0 (the first is 0)", 1, pairs(), lines=vertices)
 
 # ---- arrays --------------------------------------------------------------------------------------------------------------
 
-refused("expected an array 'id' of the particles, got none", 0, particles(), particles=particles(id=None), lines=pairs())
-refused("column 'id': expected a 64-bit integer as id, got 1.5 in row 0 (the first is 0)", 0, particles(),
-        particles=particles(id=[1.5, 2, 3]), lines=pairs())
-works(made_of(particles=particles(id=[1.0, 2.0, 3.0]), lines=pairs()))
+refused("expected an array 'id' of the particles, got none", 0, all_particles(), particles=all_particles(id=None), lines=pairs())
+refused("column 'id': expected a 64-bit integer as id, got 1.5 in row 0 (the first is 0)", 0, all_particles(),
+        particles=all_particles(id=[1.5, 2, 3]), lines=pairs())
+works(made_of(particles=all_particles(id=[1.0, 2.0, 3.0]), lines=pairs()))
 refused("expected an array 'id1' of the lines, got none", 1, pairs(), lines=pairs(id1=None))
 refused("expected an array 'id2' of the lines, got none", 1, pairs(), lines=pairs(id2=None))
 refused("expected an array 'id2' of the lines, got none", 2, walls(), walls=walls(id2=None))
@@ -172,14 +172,14 @@ refused("expected lines or an array 'contact_point' of contacts with walls, got 
 works(made_of(walls=table_of({"id2": [1], "force": [[0, 0, 3.0]], "contact_point": [[0, 0, -1.0]]})))
 NO_RADII = "expected an array 'radius' of the particles, whose volume stresses are divided by, got none"
 for on in (["von_mises"], ["principal_stress"]):
-    refused(NO_RADII, 0, particles(), particles=particles(radius=None), lines=pairs(), on=on)
-    refused(NO_RADII.replace("radius", "size"), 0, particles(size=[1.0, 1, 1]), lines=pairs(), on=on, RadiusArray="size")
-works(made_of(particles=particles(radius=None), lines=pairs()))
-refused("expected an array 'radius' of numbers, got texts", 0, particles(), particles=particles(radius=["a", "b", "c"]), lines=pairs())
+    refused(NO_RADII, 0, all_particles(), particles=all_particles(radius=None), lines=pairs(), on=on)
+    refused(NO_RADII.replace("radius", "size"), 0, all_particles(size=[1.0, 1, 1]), lines=pairs(), on=on, RadiusArray="size")
+works(made_of(particles=all_particles(radius=None), lines=pairs()))
+refused("expected an array 'radius' of numbers, got texts", 0, all_particles(), particles=all_particles(radius=["a", "b", "c"]), lines=pairs())
 OVERLAP = "expected an array 'delta' of the contacts, or 'radius' of the particles, for MinimumOverlap, got neither"
-refused(OVERLAP, 0, particles(), particles=particles(radius=None), lines=pairs(), MinimumOverlap=1e-9)
-refused(OVERLAP, 0, particles(), particles=particles(radius=None), lines=pairs(delta=[1.0, 1.0]), walls=walls(), MinimumOverlap=1e-9)
-works(made_of(particles=particles(radius=None), lines=pairs(delta=[1.0, 1.0]), MinimumOverlap=1e-9))
+refused(OVERLAP, 0, all_particles(), particles=all_particles(radius=None), lines=pairs(), MinimumOverlap=1e-9)
+refused(OVERLAP, 0, all_particles(), particles=all_particles(radius=None), lines=pairs(delta=[1.0, 1.0]), walls=walls(), MinimumOverlap=1e-9)
+works(made_of(particles=all_particles(radius=None), lines=pairs(delta=[1.0, 1.0]), MinimumOverlap=1e-9))
 
 refused("expected forces of the contacts for MinimumForce, got none", 1, pairs(), lines=pairs(force=None), MinimumForce=1e-9)
 works(made_of(lines=pairs(force=None)), "neither an array 'force' nor 'force_normal'")
@@ -195,7 +195,10 @@ for name, kind, bad in (("MinimumForce", "of 0 or more", (-1, NAN, INFINITY)), (
         fails(made, f"expected a {name} {kind}, got {text}")
     getattr(made, f"Set{name}")(0.5)
     works(made)
-made = made_of(lines=pairs(), RattlerContacts=0, LeverArm=7)
+made = made_of(lines=pairs())
+made.SetRattlerContacts(0)
+made.SetLeverArm(7)
+assert [text.split("): ")[1].strip() for text in made.said] == ["RattlerContacts must be at least 1, got 0", "LeverArm must be from 0 to 1, got 7"]
 assert made.GetRattlerContacts() == 2 and made.GetLeverArm() == 0
 
 # ---- parts of lines ------------------------------------------------------------------------------------------------------
@@ -235,12 +238,12 @@ for wrong in (NAN, INFINITY, -INFINITY, 1e300):
     points = [list(point) for point in ENDS]
     points[1][2] = wrong
     works(made_of(lines=pairs(points)), BROKEN.format(1, 2))
-    works(made_of(lines=pairs(), particles=particles(radius=[wrong, 1, 1])), BROKEN.format(1, 2))
-made = made_of(particles=particles(id=[1, 2, 2]), lines=pairs(id2=[2, 2]))
+    works(made_of(lines=pairs(), particles=all_particles(radius=[wrong, 1, 1])), BROKEN.format(1, 2))
+made = made_of(particles=all_particles(id=[1, 2, 2]), lines=pairs(id2=[2, 2]))
 works(made, "1 particles have the id of another one: contacts go to the first")
 assert array(made, "coordination").tolist() == [1, 3, 0]
 # several at once, each told once until something changes
-made = made_of(particles=particles(id=[1, 2, 2]), lines=pairs(id2=[9, 2], force=[[-4.0, 1, 0], [NAN, 0, 0]]))
+made = made_of(particles=all_particles(id=[1, 2, 2]), lines=pairs(id2=[9, 2], force=[[-4.0, 1, 0], [NAN, 0, 0]]))
 works(made, MISSING.format(1, 2), BROKEN.format(1, 2), "1 particles have the id")
 made.said.clear()
 made.UpdatePiece(1, 2, 0)

@@ -35,12 +35,12 @@ def alone(name, step, **how):
 
 
 def proxies(name, walls=True, rows=False):
-    particles = GranularDumpReader(FileNames=[plain.path(name)])
+    all_particles = GranularDumpReader(FileNames=[plain.path(name)])
     contacts = GranularLocalReader(FileNames=[plain.path(name + "_contacts")], ColumnMap=plain.COLUMNS[name + "_contacts"])
     ports = {"Lines": OutputPort(contacts, 1 if rows else 0)}
     if walls:
         ports["Walls"] = GranularLocalReader(FileNames=[plain.path(name + "_walls")], ColumnMap=plain.COLUMNS[name + "_walls"])
-    return particles, ports
+    return all_particles, ports
 
 
 # particles or lines of each rank, dealt to others: DEAL is the rank of each of all of them
@@ -82,8 +82,8 @@ def dealt(source, deal):
 
 
 for name, steps in (("bed", [70000]), ("periodic_bed", [70000]), ("moving", [3020, 3000])):
-    particles, ports = proxies(name)
-    sums = GranularContactSums(Input=particles, Arrays=NAMES, RattlerContacts=4, **ports)
+    all_particles, ports = proxies(name)
+    sums = GranularContactSums(Input=all_particles, Arrays=NAMES, RattlerContacts=4, **ports)
     for step in steps:
         expected = alone(name, step, RattlerContacts=4)
         whole = all_ranks.whole(sums, step)
@@ -92,18 +92,18 @@ for name, steps in (("bed", [70000]), ("periodic_bed", [70000]), ("moving", [302
         lines = all_ranks.whole(OutputPort(sums, 1), step)
         assert content(lines, False).tobytes() == content(expected.GetLinesOutput(), False).tobytes(), (name, step)
 for name in ("tilted", "tilted_granular"):
-    particles, ports = proxies(name, False, True)
-    sums = GranularContactSums(Input=particles, Arrays=NAMES[:-1], **ports)
+    all_particles, ports = proxies(name, False, True)
+    sums = GranularContactSums(Input=all_particles, Arrays=NAMES[:-1], **ports)
     expected = content(alone(name, None, walls=False, rows=True).GetOutput())
     assert content(all_ranks.whole(sums)).tobytes() == expected.tobytes(), name
 
 # elsewhere than the readers leave them; ranks without particles, without contacts, or without either
-particles, ports = proxies("periodic_bed")
+all_particles, ports = proxies("periodic_bed")
 expected = alone("periodic_bed", 70000)
 for particle_deal, line_deal in (("i * 7919 // 3 % ranks", "i % ranks"), ("0", "ranks - 1"), ("ranks - 1", "0"), ("0", "0"),
                               ("i % ranks", "0")):
     moved = {port: dealt(source, line_deal) for port, source in ports.items()}
-    sums = GranularContactSums(Input=dealt(particles, particle_deal), Arrays=NAMES, **moved)
+    sums = GranularContactSums(Input=dealt(all_particles, particle_deal), Arrays=NAMES, **moved)
     whole = all_ranks.whole(sums)
     assert content(whole).tobytes() == content(expected.GetOutput()).tobytes(), (particle_deal, line_deal)
     assert fields_of(whole) == fields_of(expected.GetOutput())
@@ -134,25 +134,25 @@ def changed(source, change):
     return ProgrammableFilter(Input=source, Script=CHANGED.replace("CHANGE", change))
 
 
-without = [({"Input": changed(particles, 'output.GetPointData().RemoveArray("id")')}, None),
+without = [({"Input": changed(all_particles, 'output.GetPointData().RemoveArray("id")')}, None),
            ({"Lines": changed(ports["Lines"], 'output.GetCellData().RemoveArray("id2")')}, None),
-           ({"Input": changed(particles, 'output.GetPointData().RemoveArray("radius")')}, "von_mises"),
+           ({"Input": changed(all_particles, 'output.GetPointData().RemoveArray("radius")')}, "von_mises"),
            ({"Walls": changed(ports["Walls"], 'output.GetCellData().RemoveArray("force")')}, None)]
 for other, array in without:
-    sums = GranularContactSums(**{"Input": particles, **ports, **other}, Arrays=[array] if array else ["contact_force"])
+    sums = GranularContactSums(**{"Input": all_particles, **ports, **other}, Arrays=[array] if array else ["contact_force"])
     assert count(sums) == 0, other
-    for port, source in {"Input": particles, **ports}.items():
+    for port, source in {"Input": all_particles, **ports}.items():
         setattr(sums, port, source)
     if not all_ranks.symmetric:
         assert count(sums) == 250, other
-    assert content(all_ranks.whole(GranularContactSums(Input=particles, Arrays=NAMES, **ports))).tobytes() == content(
+    assert content(all_ranks.whole(GranularContactSums(Input=all_particles, Arrays=NAMES, **ports))).tobytes() == content(
         expected.GetOutput()).tobytes()
-sums = GranularContactSums(Input=particles, MinimumForce=-1, **ports)
+sums = GranularContactSums(Input=all_particles, MinimumForce=-1, **ports)
 assert count(sums) == 0
 sums.MinimumForce = 0
 count(sums)
 
 # warnings are told once, with the numbers of all ranks
-fewer = dealt(particles, "i % ranks if i % 10 else -1")
+fewer = dealt(all_particles, "i % ranks if i % 10 else -1")
 assert all_ranks.whole(GranularContactSums(Input=fewer, **ports)).GetNumberOfPoints() == 225
 print("all there", file=sys.stderr)  # behind what was said

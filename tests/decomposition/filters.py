@@ -47,10 +47,10 @@ def reader(*names):
 
 
 def counted():
-    particles = vg.vtkGranularDumpReader()
-    particles.AddFileName(os.path.join(data, "grains_2000.dump"))
+    all_particles = vg.vtkGranularDumpReader()
+    all_particles.AddFileName(os.path.join(data, "grains_2000.dump"))
     algorithm = vg.vtkGranularDecomposition()
-    algorithm.SetInputConnection(particles.GetOutputPort())
+    algorithm.SetInputConnection(all_particles.GetOutputPort())
     algorithm.SetProcessorGrid(3, 2, 4)
     return output(algorithm)
 
@@ -210,8 +210,8 @@ for step in (0, 50):
 for step in (1000, 2000):
     owned = [int(open(os.path.join(data, f"pieces_{step}.{process}.dump")).read().split("\n")[3])
              for process in range(4)]
-    particles = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
-    _, cells = fetch(GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2]), step)
+    all_particles = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
+    _, cells = fetch(GranularDecomposition(Input=all_particles, ProcessorGrid=[2, 1, 2]), step)
     assert cells["nlocal"].sum() == sum(owned) == 1200
     assert abs(cells["nlocal"] - owned).max() <= 8, (cells["nlocal"], owned)
 
@@ -219,8 +219,8 @@ for step in (1000, 2000):
 expected = {}
 for properties in ({}, {"Coordinates": "Unwrapped"}, {"Coordinates": "Scaled"},
                    {"PointOrigin": [0.5, -2, 1e3]}):
-    particles = GranularDumpReader(FileNames=[os.path.join(data, "grains_2000.dump")], **properties)
-    grid, cells = fetch(GranularDecomposition(Input=particles, ProcessorGrid=[3, 4, 5]))
+    all_particles = GranularDumpReader(FileNames=[os.path.join(data, "grains_2000.dump")], **properties)
+    grid, cells = fetch(GranularDecomposition(Input=all_particles, ProcessorGrid=[3, 4, 5]))
     expected = expected or cells
     assert (cells["nlocal"] == expected["nlocal"]).all(), properties
     assert cells["nlocal"].sum() == 1200
@@ -233,9 +233,9 @@ for properties in ({}, {"Coordinates": "Unwrapped"}, {"Coordinates": "Scaled"},
 
 # brute force, also at cuts that are not even
 cuts = {"XCuts": [-0.03, 0.001], "YCuts": [], "ZCuts": [0.004, 0.01, 0.02]}
-particles = GranularDumpReader(FileNames=[os.path.join(data, "grains_2000.dump")])
-_, cells = fetch(GranularDecomposition(Input=particles, ProcessorGrid=[0, 1, 0], **cuts))
-points = vtk_to_numpy(servermanager.Fetch(particles).GetPoints().GetData())
+all_particles = GranularDumpReader(FileNames=[os.path.join(data, "grains_2000.dump")])
+_, cells = fetch(GranularDecomposition(Input=all_particles, ProcessorGrid=[0, 1, 0], **cuts))
+points = vtk_to_numpy(servermanager.Fetch(all_particles).GetPoints().GetData())
 edges = [numpy.concatenate([[low], cut, [high]]) for low, cut, high in
          zip((-0.05, -0.05, 0), cuts.values(), (0.05, 0.05, 0.15))]
 points[:, :2] = (points[:, :2] + 0.05) % 0.1 - 0.05  # periodic in x and y
@@ -244,8 +244,8 @@ assert (cells["nlocal"] == brute.ravel()).all()
 
 # the subdomains of a file that LIGGGHTS wrote, which says nothing of particles
 divided = GranularDecompositionReader(FileNames=[os.path.join(data, "decomposition/all.vtk")])
-_, cells = fetch(GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2]))
-given = GranularDecomposition(Input=particles, Mode="Subdomains", Subdomains=divided)
+_, cells = fetch(GranularDecomposition(Input=all_particles, ProcessorGrid=[2, 1, 2]))
+given = GranularDecomposition(Input=all_particles, Mode="Subdomains", Subdomains=divided)
 given.UpdatePipeline()
 grid = servermanager.Fetch(given)
 assert not grid.GetCellData().HasArray("proc")

@@ -61,15 +61,15 @@ divided = GranularDecompositionReader(FileNames=[os.path.join(data, "decompositi
 
 # the filter: the results of three modes do not depend on the ranks
 file = os.path.join(data, "grains_2000.dump")
-particles = GranularDumpReader(FileNames=[file])
+all_particles = GranularDumpReader(FileNames=[file])
 atoms = GranularDumpReader(FileNames=[os.path.join(data, "process_50.dump")])
 dumps = vg.vtkGranularDumpReader
 for proxy, algorithm, inputs in (
-        (GranularDecomposition(Input=particles, ProcessorGrid=[3, 4, 5]),
+        (GranularDecomposition(Input=all_particles, ProcessorGrid=[3, 4, 5]),
          filter_of(ProcessorGrid=(3, 4, 5)), [reader_of(dumps, "grains_2000.dump")]),
         (GranularDecomposition(Input=atoms, Mode="ProcessArray"),
          filter_of(Mode=1), [reader_of(dumps, "process_50.dump")]),
-        (GranularDecomposition(Input=particles, Mode="Subdomains", Subdomains=divided),
+        (GranularDecomposition(Input=all_particles, Mode="Subdomains", Subdomains=divided),
          filter_of(Mode=2), [reader_of(dumps, "grains_2000.dump"),
                              reader_of(vg.vtkGranularDecompositionReader, "decomposition/all.vtk")])):
     together = whole(proxy, 0)
@@ -79,7 +79,7 @@ for proxy, algorithm, inputs in (
     assert fields[0] == fields[1] >= 1, fields
 
 # the ranks of this program: a voxel each, with what it has
-here = GranularDecomposition(Input=particles, Mode="Ranks")
+here = GranularDecomposition(Input=all_particles, Mode="Ranks")
 told = said_by(here.GetClientSideObject())
 grid = whole(here, 0)
 size = all_ranks.ranks.GetNumberOfProcesses()

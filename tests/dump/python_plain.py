@@ -47,5 +47,5 @@ if os.path.exists(stub):  # where VTK has its generator
         text = file.read()
     assert all(f"class {name}(" in text for name in dir(vg.vtkGranular) if name.startswith("vtkGranular"))
 page = pydoc.plain(pydoc.render_doc(vg))
-assert "vg.fetch(reader" in page.split("FUNCTIONS")[0]
+assert "vtkgranular.fetch(reader" in page.split("FUNCTIONS")[0]
 assert len(page.splitlines()) < 400, "help(vtkgranular) is longer than anybody reads"

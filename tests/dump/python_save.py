@@ -31,8 +31,8 @@ def refused(proxy, name, *parts):
         raise AssertionError(f"{name} was written")
 
 
-particles = os.path.join(good, "grains.dump")
-particles = vg.reader(particles)
+all_particles = os.path.join(good, "grains.dump")
+particles = vg.reader(all_particles)
 vg.update(particles, particles.TimestepValues[-1])
 contacts = vg.reader(os.path.join(samples, "bonds", "settled_contacts.dump.gz"), Preset="ContactsForce")
 vg.update(contacts, contacts.TimestepValues[-1])
@@ -80,7 +80,7 @@ for compressor in ("None", "ZLib", "LZ4", "LZMA"):
     again = vg.fetch(XMLPolyDataReader(FileName=["packed.vtp"]))
     assert all(numpy.array_equal(again[name], whole[name]) for name in whole), compressor
 for name, kind in (("b.vtp", XMLPolyDataReader), ("b.vtu", XMLUnstructuredGridReader)):
-    assert main(["convert", particles, name, "--frames", "-1", "--quiet"]) == 0
+    assert main(["convert", all_particles, name, "--frames", "-1", "--quiet"]) == 0
     assert b"AppendedData" not in open(name, "rb").read(), name
     again = vg.fetch(kind(FileName=[name]))
     assert all(numpy.array_equal(again[name], whole[name]) for name in ("points", "id", "v", "radius"))
@@ -120,7 +120,7 @@ vg.save(contacts, "empty.bonds", time=contacts.TimestepValues[0])
 
 # the whole run, and a filter's new array, by default: nothing is lost
 vg.save(particles, "same.dump", WriteTimeSteps=1)
-assert filecmp.cmp("same.dump", particles, shallow=False)
+assert filecmp.cmp("same.dump", all_particles, shallow=False)
 third = Calculator(Input=particles, ResultArrayName="third", Function="radius / 3")
 turned = Transform(Input=third)
 turned.Transform.Rotate = [10, 20, 30]

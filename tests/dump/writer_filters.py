@@ -36,33 +36,33 @@ def ulps(values, expected):
     return (abs(values - expected) / numpy.spacing(abs(expected))).max()
 
 
-particles = last("grains.dump")
-names = list(particles.columns)
-where = particles.stack(["x", "y", "z"])
+all_particles = last("grains.dump")
+names = list(all_particles.columns)
+where = all_particles.stack(["x", "y", "z"])
 reader = open_dump("grains.dump")
 everything = open_dump("grains.dump")
 everything.PointArrayStatus = list(everything.GetProperty("PointArrayStatus").Available)
 for source in (reader, everything):
     frame = written(source, 2000)
     assert list(frame.columns) == names
-    assert (frame.stack(names) == particles.stack(names)).all()
+    assert (frame.stack(names) == all_particles.stack(names)).all()
 
 # ---- some of the particles ----------------------------------------------------------------------------
 
 some = Threshold(Input=reader, Scalars=["POINTS", "id"], LowerThreshold=100, UpperThreshold=199)
 frame = written(some, 2000)
-kept = numpy.isin(ids(particles), numpy.arange(100, 200))
-assert frame.rows == 100 and frame.timestep == 2000 and frame.bounds == particles.bounds
-assert list(frame.columns) == names and (frame.stack(names) == particles.stack(names)[kept]).all()
+kept = numpy.isin(ids(all_particles), numpy.arange(100, 200))
+assert frame.rows == 100 and frame.timestep == 2000 and frame.bounds == all_particles.bounds
+assert list(frame.columns) == names and (frame.stack(names) == all_particles.stack(names)[kept]).all()
 
 selection = IDSelectionSource(FieldType="POINT", IDs=[-1, 3, -1, 7, -1, 1000])
 frame = written(ExtractSelection(Input=reader, Selection=selection), 2000)
-assert (ids(frame) == ids(particles)[[3, 7, 1000]]).all() and list(frame.columns)[:len(names)] == names
+assert (ids(frame) == ids(all_particles)[[3, 7, 1000]]).all() and list(frame.columns)[:len(names)] == names
 assert list(frame.columns)[len(names):] == ["vtkOriginalPointIds"], list(frame.columns)
 
 nothing = Threshold(Input=reader, Scalars=["POINTS", "id"], LowerThreshold=-2, UpperThreshold=-1)
 frame = written(nothing, 2000)
-assert frame.rows == 0 and frame.bounds == particles.bounds and frame.timestep == 2000
+assert frame.rows == 0 and frame.bounds == all_particles.bounds and frame.timestep == 2000
 assert list(frame.columns) == names
 
 # ---- something new ---------------------------------------------------------------------------------
@@ -70,15 +70,15 @@ assert list(frame.columns) == names
 speed = Calculator(Input=reader, ResultArrayName="speed", Function="mag(v)")
 frame = written(speed, 2000)
 assert list(frame.columns) == names + ["speed"]
-assert ulps(frame.numbers("speed"), numpy.linalg.norm(particles.stack(["vx", "vy", "vz"]), axis=1)) <= 2
+assert ulps(frame.numbers("speed"), numpy.linalg.norm(all_particles.stack(["vx", "vy", "vz"]), axis=1)) <= 2
 twice = Calculator(Input=reader, ResultArrayName="two words", Function="2*v")
 frame = written(twice, 2000)
 assert list(frame.columns) == names + [f"two_words[{i}]" for i in (1, 2, 3)]
-assert (frame.numbers("two_words[3]") == 2 * particles.numbers("vz")).all()
+assert (frame.numbers("two_words[3]") == 2 * all_particles.numbers("vz")).all()
 over = Calculator(Input=reader, ResultArrayName="v", Function="2*v")  # takes the place of the file's
 frame = written(over, 2000)
 assert list(frame.columns) == names
-assert (frame.stack(["vx", "vy", "vz"]) == 2 * particles.stack(["vx", "vy", "vz"])).all()
+assert (frame.stack(["vx", "vy", "vz"]) == 2 * all_particles.stack(["vx", "vy", "vz"])).all()
 
 # ---- points that were moved --------------------------------------------------------------------------
 
@@ -88,7 +88,7 @@ for source in (reader, everything):  # with the columns x y z of the file, and w
     frame = written(moved, 2000)
     expected = where + [1, -2, 4]
     assert ulps(frame.stack(["x", "y", "z"]), expected) <= 1
-    assert frame.bounds == particles.bounds
+    assert frame.bounds == all_particles.bounds
 
 # ---- what the reader did to them --------------------------------------------------------------------
 
@@ -113,11 +113,11 @@ assert (frame.stack(["x", "y", "z"]) == where.astype(numpy.float32)).all()
 
 thin = open_dump("grains.dump", Stride=10)
 frame = written(thin, 2000)
-kept = ids(particles) % 10 == 0
-assert (ids(frame) == ids(particles)[kept]).all() and (frame.stack(["x", "y", "z"]) == where[kept]).all()
+kept = ids(all_particles) % 10 == 0
+assert (ids(frame) == ids(all_particles)[kept]).all() and (frame.stack(["x", "y", "z"]) == where[kept]).all()
 part = open_dump("grains.dump", RegionOfInterest=[1, -1, 1, -1, 0.02, 0.06])
 frame = written(part, 2000)
 kept = (where[:, 2] >= 0.02) & (where[:, 2] <= 0.06)
-assert 0 < kept.sum() < particles.rows
-assert (ids(frame) == ids(particles)[kept]).all() and (frame.stack(["x", "y", "z"]) == where[kept]).all()
+assert 0 < kept.sum() < all_particles.rows
+assert (ids(frame) == ids(all_particles)[kept]).all() and (frame.stack(["x", "y", "z"]) == where[kept]).all()
 print("right")

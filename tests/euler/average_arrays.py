@@ -272,8 +272,8 @@ for weights in range(5):
     assert not moving.filter.GetOutputDataObject(0).GetFieldData().HasArray("timestep")
 whole = Averages("moving", CellCounts=(1, 1, 1), Weights=CENTRE, TimeAverage=True).update()
 runs = [Run("moving", step) for step in (3000, 3020)]
-ends, particles = sum(run.counted.sum() for run in runs), sum(len(run.particles.ids) for run in runs)
-assert abs(whole["coordination"][0, 0] - ends / particles) < 1e-15 * ends
+ends, all_particles = sum(run.counted.sum() for run in runs), sum(len(run.particles.ids) for run in runs)
+assert abs(whole["coordination"][0, 0] - ends / all_particles) < 1e-15 * ends
 normals = numpy.concatenate([plain.products(run.normals, run.normals) for run in runs]).mean(axis=0)
 assert abs(whole["fabric"][0] - normals).max() < 1e-14
 table = Averages("moving", CellCounts=COUNTS, OutputType=PROFILE, TimeAverage=True, Weights=GAUSSIAN).update()

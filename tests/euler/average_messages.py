@@ -85,7 +85,7 @@ def works(average, time=None, warnings=(), **properties):
     return found
 
 
-def particles(places, **arrays):
+def all_particles(places, **arrays):
     made, points = vtkPolyData(), vtkPoints()
     points.SetData(numpy_to_vtk(numpy.array(places, float), deep=1))
     made.SetPoints(points)
@@ -151,7 +151,7 @@ tilted = filter_of(reader_of(os.path.join(data, "tri_plain.dump")), Weights=CENT
 nothing = ["no array 'v'", "no array 'radius'", "neither an array 'mass'"]
 _, messages = update(tilted, 0)
 assert not any("tilted" in text for text in messages), messages
-boxless = particles([[0.5, 0.5, 0.5]], radius=[0.25], mass=[1.0], v=[[1.0, 2.0, 3.0]])
+boxless = all_particles([[0.5, 0.5, 0.5]], radius=[0.25], mass=[1.0], v=[[1.0, 2.0, 3.0]])
 bare = filter_of(boxless, CellCounts=(1, 1, 1))
 fails(bare, "expected the box in the field data of the input .*, got none: give Bounds")
 found = works(bare, Bounds=(0, 1, 0, 1, 0, 1))
@@ -201,7 +201,7 @@ places[1], places[2] = [nan, 0.5, 0.5], [0.5, inf, 0.5]
 numbers = {"radius": [0.25, 0.25, 0.25, nan, -0.25, 0.25, 0.25, 0.25],
            "mass": [1.0, 1, 1, 1, 1, -1, 1, 1],
            "v": [[1.0, 2.0, 3.0]] * 6 + [[0, 0, -inf], [3.0, 2.0, 1.0]]}
-broken = filter_of(particles(places, **numbers), CellCounts=(1, 1, 1), Bounds=(0, 1, 0, 1, 0, 1))
+broken = filter_of(all_particles(places, **numbers), CellCounts=(1, 1, 1), Bounds=(0, 1, 0, 1, 0, 1))
 for weights in (CENTRE, OVERLAP):
     found = works(broken, None, ["6 particles are left out: .* no number, infinite or too large, or a mass or radius is neg"],
                   Weights=weights)
@@ -209,7 +209,7 @@ for weights in (CENTRE, OVERLAP):
     assert found["v_avg"].tolist() == [[2, 2, 2]] and found["radius"] == 0.25, found
 
 # ghosts that another process has are not counted twice; other marks do not matter
-ghosts = filter_of(particles([[0.5, 0.5, 0.5]] * 3, radius=[0.25] * 3, mass=[1.0] * 3, v=[[1.0, 0, 0]] * 3,
+ghosts = filter_of(all_particles([[0.5, 0.5, 0.5]] * 3, radius=[0.25] * 3, mass=[1.0] * 3, v=[[1.0, 0, 0]] * 3,
                           vtkGhostType=numpy.array([0, 1, 0], numpy.uint8)),
                    CellCounts=(1, 1, 1), Bounds=(0, 1, 0, 1, 0, 1))
 found = works(ghosts)
@@ -227,9 +227,9 @@ first, together = frames[0], {name: numpy.concatenate([each[name] for each in fr
 volume = (hi - lo).prod() / SIZE_OF_FINE
 
 
-def plainly(particles, frames):
-    shares = plain_average.by_centres(particles, lo, hi, FINE, (0, 1))
-    return plain_average.values(particles, shares, SIZE_OF_FINE, volume * frames)
+def plainly(all_particles, frames):
+    shares = plain_average.by_centres(all_particles, lo, hi, FINE, (0, 1))
+    return plain_average.values(all_particles, shares, SIZE_OF_FINE, volume * frames)
 
 
 expected = plainly(together, 3)

@@ -31,7 +31,7 @@ bonds = {frame.timestep: frame.stack(range(8)) for frame in
          plain_local.read(os.path.join(data, "local", "chain_bonds.dump"))}
 assert list(bonds) == [0, 500, 1000] and all(len(rows) == 96 for rows in bonds.values())
 particles = {frame.timestep: frame for frame in plain_dump.read(os.path.join(data, "local", "chain.dump"))}
-particles = GranularDumpReader(FileNames=[os.path.join(data, "local", "chain.dump")])
+all_particles = GranularDumpReader(FileNames=[os.path.join(data, "local", "chain.dump")])
 rows = TrivialProducer()
 crossed = 0
 for step, table in bonds.items():
@@ -47,8 +47,8 @@ for step, table in bonds.items():
     crossed += (abs(vectors) > edges / 2).any(axis=1).sum()
     vectors -= edges * numpy.round(vectors / edges)
     for coordinates in ("Absolute", "Unwrapped", "Scaled"):
-        particles.Coordinates = coordinates
-        lines = GranularLocalJoin(Input=particles, Lines=rows, Averages="v", Differences="*", EquilibriumLength=1.05)
+        all_particles.Coordinates = coordinates
+        lines = GranularLocalJoin(Input=all_particles, Lines=rows, Averages="v", Differences="*", EquilibriumLength=1.05)
         lines.UpdatePipeline(step)
         output = lines.GetClientSideObject().GetOutput()
         cells = {name: vtk_to_numpy(output.GetCellData().GetArray(name)) for name in
@@ -68,7 +68,7 @@ for step, table in bonds.items():
         scale = edges if coordinates == "Scaled" else 1
         assert numpy.allclose((points[:, 1] - points[:, 0]) * scale, vectors, rtol=0, atol=1e-13)
         # they begin where the particles are shown
-        shown = particles.GetClientSideObject().GetOutput()
+        shown = all_particles.GetClientSideObject().GetOutput()
         where = dict(zip(vtk_to_numpy(shown.GetPointData().GetArray("id")), vtk_to_numpy(shown.GetPoints().GetData())))
         starts = numpy.array([where[int(i)] for i in table[:, 1]])
         assert numpy.allclose(points[:, 0], starts, rtol=0, atol=1e-13)
@@ -77,8 +77,8 @@ for step, table in bonds.items():
 assert crossed > 3, crossed
 
 # split: the parts of a line are as long as the line, and in the box
-particles.Coordinates = "Absolute"
-lines = GranularLocalJoin(Input=particles, Lines=rows, PeriodicLines="Split")
+all_particles.Coordinates = "Absolute"
+lines = GranularLocalJoin(Input=all_particles, Lines=rows, PeriodicLines="Split")
 lines.UpdatePipeline(1000)
 output = lines.GetClientSideObject().GetOutput()
 row = vtk_to_numpy(output.GetCellData().GetArray("row"))
@@ -93,7 +93,7 @@ assert not (outside & ~ends_outside[row]).any()
 
 # the same by the reader: the ids of its table are those of the particles
 read = GranularLocalReader(FileNames=[os.path.join(data, "local", "chain_bonds.dump")], Preset="BondTypeIdsForce")
-lines = GranularLocalJoin(Input=particles, Lines=OutputPort(read, 1))
+lines = GranularLocalJoin(Input=all_particles, Lines=OutputPort(read, 1))
 for step, table in bonds.items():
     lines.UpdatePipeline(step)
     output = lines.GetClientSideObject().GetOutput()
@@ -103,9 +103,9 @@ for step, table in bonds.items():
     assert abs(vtk_to_numpy(output.GetCellData().GetArray("length")) - table[:, 3]).max() < 3e-4
 
 # contacts of LIGGGHTS, which have their places, too: there the particles are, whether the reader split the lines or not
-particles = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
+all_particles = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])
 contacts = GranularLocalReader(FileNames=[os.path.join(data, "local", "contacts.dump")], Preset="ContactsForce")
-joined = GranularLocalJoin(Input=particles, Lines=contacts)
+joined = GranularLocalJoin(Input=all_particles, Lines=contacts)
 counts = []
 for step in (0, 1000, 2000):
     found = []

@@ -67,14 +67,14 @@ def alone(periodic):
     return join.GetOutput()
 
 
-particles = GranularDumpReader(FileNames=[dump])
+all_particles = GranularDumpReader(FileNames=[dump])
 for periodic in (0, 1, 2):
     expected = content(alone(periodic))
     assert len(expected) == 96 if periodic != 1 else len(expected) > 96
     for own, known in (("rank::ranks", True), ("slice(0, 97 if rank == 0 else 0)", False),
                        ("slice(0, 97 if rank == ranks - 1 else 0)", True)):
         rows = ProgrammableSource(OutputDataSetType="vtkTable", Script=script(own, known))
-        lines = GranularLocalJoin(Input=particles, Lines=rows, PeriodicLines=periodic, Averages="v type", Differences="*")
+        lines = GranularLocalJoin(Input=all_particles, Lines=rows, PeriodicLines=periodic, Averages="v type", Differences="*")
         output = all_ranks.whole(lines, 1000)
         found = content(output)
         assert found.tobytes() == expected.tobytes(), (periodic, own, abs(found - expected).max())
@@ -111,10 +111,10 @@ def deal(given, output):
     output.ShallowCopy(extract.GetOutput())
 deal(self.GetInput(), self.GetOutput())
 """
-parted = GranularLocalJoin(Input=particles, Lines=rows, PeriodicLines="Split")
+parted = GranularLocalJoin(Input=all_particles, Lines=rows, PeriodicLines="Split")
 assert all_ranks.whole(parted, 1000).GetNumberOfCells() > 96
 dealt = ProgrammableFilter(Input=parted, OutputDataSetType="vtkUnstructuredGrid", Script=DEAL)
-lines = GranularLocalJoin(Input=particles, Lines=dealt, Averages="v type", Differences="*")
+lines = GranularLocalJoin(Input=all_particles, Lines=dealt, Averages="v type", Differences="*")
 assert content(all_ranks.whole(lines, 1000)).tobytes() == expected
 
 # particles that have lost their field data: the box is that of the lines, of which most ranks have neither
@@ -124,14 +124,14 @@ self.GetOutput().ShallowCopy(self.GetInput())
 if ALL or not self.GetInput().GetNumberOfCells():
     self.GetOutput().SetFieldData(vtkFieldData())
 """
-lost = ProgrammableFilter(Input=particles, Script=LOSE.replace("ALL", "True"))
-joined = GranularLocalJoin(Input=particles, Lines=rows)
+lost = ProgrammableFilter(Input=all_particles, Script=LOSE.replace("ALL", "True"))
+joined = GranularLocalJoin(Input=all_particles, Lines=rows)
 some = ProgrammableFilter(Input=joined, Script=LOSE.replace("ALL", "False"))
 lines = GranularLocalJoin(Input=lost, Lines=some, Averages="v type", Differences="*")
 assert content(all_ranks.whole(lines, 1000)).tobytes() == expected
 
 # names with blanks
-doubled = Calculator(Input=particles, Function="2*type", ResultArrayName="type, doubled")
+doubled = Calculator(Input=all_particles, Function="2*type", ResultArrayName="type, doubled")
 lines = GranularLocalJoin(Input=doubled, Lines=rows, Averages="*")
 cells = all_ranks.whole(lines, 1000).GetCellData()
 twice, once = (vtk_to_numpy(cells.GetArray(name + "_mean")) for name in ("type, doubled", "type"))
@@ -140,7 +140,7 @@ assert len(once) == 96 and (twice == 2 * once).all()
 # without ids on one rank: an error of all, and none waits
 without = ProgrammableSource(OutputDataSetType="vtkTable", Script=script().replace(
     '"id2"', '"id2" if rank < ranks - 1 else "other"'))
-lines = GranularLocalJoin(Input=particles, Lines=without)
+lines = GranularLocalJoin(Input=all_particles, Lines=without)
 lines.UpdatePipeline(1000)
 assert lines.GetDataInformation().GetNumberOfCells() == 0
 print("all there", file=sys.stderr)  # behind what was said

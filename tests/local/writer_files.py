@@ -97,9 +97,9 @@ vg.save(OutputPort(bonds, 1), "chain.bonds", Label="ENTRIES", WriteTimeSteps=1)
 assert content("chain.bonds") == original.replace(b"BONDS", b"ENTRIES")
 
 # as lines between the particles, with what these give to them; and read again
-particles = GranularDumpReader(FileNames=[good("local/chain.dump")])
+all_particles = GranularDumpReader(FileNames=[good("local/chain.dump")])
 for way in ("MinimumImage", "Split"):
-    joined = GranularLocalJoin(Input=particles, Lines=OutputPort(bonds, 1), PeriodicLines=way, Averages="v",
+    joined = GranularLocalJoin(Input=all_particles, Lines=OutputPort(bonds, 1), PeriodicLines=way, Averages="v",
                                EquilibriumLength=1.05)
     vg.save(joined, "joined.bonds", NumberFormat="shortest", WriteTimeSteps=1)
     written = plain_local.read("joined.bonds")

@@ -48,10 +48,10 @@ def pairs(frame):
 
 
 # what LAMMPS says of itself
-particles = GranularDumpReader(FileNames=[DUMP])
+all_particles = GranularDumpReader(FileNames=[DUMP])
 local = GranularLocalReader(FileNames=[BONDS], Preset="BondTypeIds")
-bonds = GranularLocalJoin(Input=particles, Lines=OutputPort(local, 1))
-compared = GranularCompare(Input=particles, Lines=bonds, Differences="*")
+bonds = GranularLocalJoin(Input=all_particles, Lines=OutputPort(local, 1))
+compared = GranularCompare(Input=all_particles, Lines=bonds, Differences="*")
 rows = {frame.timestep: frame for frame in plain_local.read(BONDS)}
 moved = 0
 for step, frame in zip(steps, frames):
@@ -92,7 +92,7 @@ for step, frame in zip(steps, frames):
 assert moved > 14 and lost == 33 and (change == 1).sum() == 7, (moved, lost)
 
 # the shown frame is still that of the readers
-for reader, points in ((particles, True), (local, False)):
+for reader, points in ((all_particles, True), (local, False)):
     assert output_of(reader).GetFieldData().GetArray("timestep").GetValue(0) == 1200
 
 # other references
@@ -100,7 +100,7 @@ for reference, properties in (([0, 0, 400, 800], {"Reference": "Previous"}),
                               ([400] * 4, {"Reference": "Time", "ReferenceTime": 799}),
                               ([0] * 4, {"Reference": "Time", "ReferenceTime": -5}),
                               ([1200] * 4, {"Reference": "Time", "ReferenceTime": 1e9})):
-    other = GranularCompare(Input=particles, Lines=bonds, **properties)
+    other = GranularCompare(Input=all_particles, Lines=bonds, **properties)
     for step in (1200, 400, 0, 800, 1200):
         other.UpdatePipeline(step)
         ids = arrays_of(output_of(other))["id"]
@@ -123,8 +123,8 @@ compared.UpdatePipeline(1200)
 found = arrays_of(output_of(compared))
 assert abs(found["displacement"] - said).max() < 2e-14 and "fragment" not in found
 assert output_of(compared, 1).GetNumberOfCells() == 0
-particles.PointArrayStatus = [name for name in particles.PointArrayStatus if name != "image"]
-nearest = GranularCompare(Input=particles, Reference="Time", ReferenceTime=400)
+all_particles.PointArrayStatus = [name for name in all_particles.PointArrayStatus if name != "image"]
+nearest = GranularCompare(Input=all_particles, Reference="Time", ReferenceTime=400)
 nearest.UpdatePipeline(800)
 found = arrays_of(output_of(nearest))["displacement"]
 edges = numpy.diff(numpy.array(frames[2].bounds)).T[0]
@@ -135,8 +135,8 @@ assert (abs(found) > edges / 4).any(axis=1).sum() == 12  # which is told
 # particles that come: none in the first frame of this run of LIGGGHTS, more and more afterwards; the next one is the reference
 file = os.path.join(data, "grains.dump")
 settling = plain_dump.read(file)
-particles = GranularDumpReader(FileNames=[file])
-compared = GranularCompare(Input=particles, Differences="v")
+all_particles = GranularDumpReader(FileNames=[file])
+compared = GranularCompare(Input=all_particles, Differences="v")
 for frame in settling:
     compared.UpdatePipeline(frame.timestep)
     found = arrays_of(output_of(compared))

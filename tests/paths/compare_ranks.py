@@ -70,10 +70,10 @@ def some(given, output):
 some(self.GetInputDataObject(0, 0), self.GetOutputDataObject(0))
 """
 
-particles = GranularDumpReader(FileNames=[DUMP])
+all_particles = GranularDumpReader(FileNames=[DUMP])
 local = GranularLocalReader(FileNames=[BONDS], Preset="BondTypeIds")
-bonds = GranularLocalJoin(Input=particles, Lines=OutputPort(local, 1))
-compared = GranularCompare(Input=particles, Lines=bonds, Differences="*")
+bonds = GranularLocalJoin(Input=all_particles, Lines=OutputPort(local, 1))
+compared = GranularCompare(Input=all_particles, Lines=bonds, Differences="*")
 for previous, reference in enumerate(("First", "Previous")):
     compared.Reference = reference
     for step in (1200, 0, 400, 800):
@@ -84,7 +84,7 @@ for previous, reference in enumerate(("First", "Previous")):
         assert found.tobytes() == content(lines, CELLS, False).tobytes(), (step, reference)
 
 # particles that are lost: those of ids that three divides
-fewer = ProgrammableFilter(Input=particles, OutputDataSetType="vtkPolyData", Script=SOME)
+fewer = ProgrammableFilter(Input=all_particles, OutputDataSetType="vtkPolyData", Script=SOME)
 compared = GranularCompare(Input=fewer, Differences="*")
 whole = all_ranks.whole(compared, 400)
 change, ids, image = (vtk_to_numpy(whole.GetPointData().GetArray(name)) for name in ("change", "id", "image"))
@@ -104,7 +104,7 @@ array = self.GetOutputDataObject(0).GetPointData().GetArray("id")
 if array and array.GetNumberOfTuples():
     vtk_to_numpy(array)[vtk_to_numpy(array) == 93] = 7
 """
-twice = ProgrammableFilter(Input=particles, OutputDataSetType="vtkPolyData", Script=TWICE)
+twice = ProgrammableFilter(Input=all_particles, OutputDataSetType="vtkPolyData", Script=TWICE)
 compared = GranularCompare(Input=twice)
 compared.UpdatePipeline(400)
 assert compared.GetDataInformation().GetNumberOfPoints() == 0

@@ -111,13 +111,13 @@ for names, plainly, arrays, ids in RUNS:
             assert values.dtype == numpy.float64
             assert numpy.array_equal(values.reshape(expected.shape), expected, equal_nan=True), (i, name)
 
-particles, walk = reader_of("grains.dump"), reader_of("paths/walk.dump.gz")
+all_particles, walk = reader_of("grains.dump"), reader_of("paths/walk.dump.gz")
 frames = plain_dump.read(os.path.join(data, "grains.dump"))
-assert history(particles, "expected at most 1000 particles for columns of their own, got 1200: select fewer, or take STATISTICS") == {}
-assert len(both(particles, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
+assert history(all_particles, "expected at most 1000 particles for columns of their own, got 1200: select fewer, or take STATISTICS") == {}
+assert len(both(all_particles, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
                                                  if int(i) % 2 == 0})
-assert list(both(particles, Ids="-5")) == ["time", "timestep"]
-assert len(both(particles, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
+assert list(both(all_particles, Ids="-5")) == ["time", "timestep"]
+assert len(both(all_particles, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
 assert both(walk, FrameStride=7, Ids="5")["timestep"].tolist() == list(range(0, 601, 140))
 
 # the time that is shown does not matter

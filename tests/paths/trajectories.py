@@ -141,14 +141,14 @@ for names, form, plainly, arrays in KINDS:
 
 frames = plain_dump.read(os.path.join(data, "grains.dump"))
 assert frames[0].rows == 0 and 0 < frames[1].rows
-particles = reader_of("grains.dump")
-through = beside(particles)
+all_particles = reader_of("grains.dump")
+through = beside(all_particles)
 times = [0., 1000., 2000.]
 
 
 def both(*, said=None, **properties):
     """The same both ways."""
-    one = draw(particles, times[-1], said, **properties)
+    one = draw(all_particles, times[-1], said, **properties)
     assert plain_paths.same(one, draw(through, times[-1], said, **properties)), properties
     return one
 
@@ -191,7 +191,7 @@ assert {line["time"][0] for lines in both(TimeWindow=[500, 1500]).values() for l
 alone = both(TimeWindow=[1000, 1000])
 assert len(alone) == frames[1].rows and all(len(lines) == 1 and len(lines[0]["points"]) == 1 and lines[0]["speed"][0] == 0
                                             and lines[0]["length"] == 0 for lines in alone.values())
-proxy = GranularTrajectories(Input=particles, TimeWindow=[1000, 1000])
+proxy = GranularTrajectories(Input=all_particles, TimeWindow=[1000, 1000])
 proxy.UpdatePipeline(0)
 output = proxy.GetClientSideObject().GetOutput()
 assert output.GetNumberOfVerts() == frames[1].rows and output.GetNumberOfLines() == 0
@@ -286,12 +286,12 @@ for source in (walkers, hidden):
     Delete(tail)
 assert times_of(GranularTrajectories(Input=walkers)) == []
 
-# of grains.dump, whose first frame has no particles, and "*" none of their arrays
-tail = GranularTrajectories(Input=particles, Tail=1, Arrays="*")
+# of particles.dump, whose first frame has no particles, and "*" none of their arrays
+tail = GranularTrajectories(Input=all_particles, Tail=1, Arrays="*")
 for time in (0, 1000, 2000, 0, 1000, 2000, 1000, 0):
     lines, messages = update(tail, time)
     assert messages == []
-    fresh = draw(particles, time, TimeWindow=[time - 1000, time], Arrays="*") if time else {}
+    fresh = draw(all_particles, time, TimeWindow=[time - 1000, time], Arrays="*") if time else {}
     assert plain_paths.same(lines, fresh), time
 Delete(tail)
 

@@ -7,7 +7,7 @@ import shutil
 from paraview.simple import *
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
-PARTICLES, SPHERE, CONTACTS = "grains_1000.dump", "data_file/sphere.data", "local/contacts.dump"
+ALL_PARTICLES, SPHERE, CONTACTS = "grains_1000.dump", "data_file/sphere.data", "local/contacts.dump"
 FIBRES, CELLS, DOMAINS = "restart/fibres.restart", "euler_1000.vtk", "decomposition/all.vtk"
 COMMON = {"TimestepSize": 1, "RefreshOnUpdate": 0, "Threads": 0}
 LINES = {"PeriodicLines": "MinimumImage", "PointOrigin": [0, 0, 0]}
@@ -20,7 +20,7 @@ def good(name):
 
 # file, reader, cells of the first output (None: it would warn of columns without names), names under which users have such files
 NAMES = (
-    (PARTICLES, "Dump", 1200, "a.dump a.lammpstrj a.liggghts a.dmp A.DUMP dump.1000 dump.liggghts dump.1000.liggghts "
+    (ALL_PARTICLES, "Dump", 1200, "a.dump a.lammpstrj a.liggghts a.dmp A.DUMP dump.1000 dump.liggghts dump.1000.liggghts "
      "dump1000.liggghts_run dump_xyzr-2000 dump.settling.1000"),
     (SPHERE, "DataFile", 40, "data.sphere x.lmp x.data"),
     (CONTACTS, "Local", None, "contacts.local bonds.bond x.bfc x.lmp dump.local.1000"),

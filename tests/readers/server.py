@@ -80,9 +80,9 @@ def euler(reader):
 
 def decomposition(divided):
     """The filter counts by subdomains of the file and by a grid, and what it says of the grid passes."""
-    particles = OpenDataFile(os.path.join(GOOD, "grains_2000.dump"))
-    counted = GranularDecomposition(Input=particles, Mode="Subdomains", Subdomains=divided)
-    by_grid = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
+    all_particles = OpenDataFile(os.path.join(GOOD, "grains_2000.dump"))
+    counted = GranularDecomposition(Input=all_particles, Mode="Subdomains", Subdomains=divided)
+    by_grid = GranularDecomposition(Input=all_particles, ProcessorGrid=[2, 1, 2])
     for domains in (counted, by_grid):
         check(domains, {}, None, (4,))
         assert domains.GetDataInformation().GetBounds() == (-0.05, 0.05, -0.05, 0.05, 0, 0.15)

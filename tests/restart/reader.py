@@ -192,13 +192,13 @@ for pieces in (2, 3, 5, 40):
 # ---- particles without bonds, and bonds with twelve values, of other programs -------------------------------
 
 if os.path.isdir(shared):
-    particles = Read(os.path.join(shared, "liggghts", "grains.restart"))
+    all_particles = Read(os.path.join(shared, "liggghts", "grains.restart"))
     records = plain_restart.Restart(os.path.join(shared, "liggghts", "grains.restart")).records
     assert len(records) == 1200
-    check_particles(particles, records)
-    assert particles.lines.GetNumberOfCells() == 0 and particles.said == [], particles.said
+    check_particles(all_particles, records)
+    assert all_particles.lines.GetNumberOfCells() == 0 and all_particles.said == [], all_particles.said
     walls = numpy.array([record[18:21] for record in records])  # fix property/atom: its length and three values
-    assert (particles.points("f_history_zwalls") == walls).all() and (walls != 0).any()
+    assert (all_particles.points("f_history_zwalls") == walls).all() and (walls != 0).any()
     beam = Read(os.path.join(shared, "reference", "beam.restart"))
     records = plain_restart.Restart(os.path.join(shared, "reference", "beam.restart")).records
     check_particles(beam, records)

@@ -75,20 +75,20 @@ def euler():
 
 
 def decomposition():
-    particles = GranularDumpReader(FileNames=[good("grains.dump")], TimestepSize=2e-5)
-    domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])
+    all_particles = GranularDumpReader(FileNames=[good("grains.dump")], TimestepSize=2e-5)
+    domains = GranularDecomposition(Input=all_particles, ProcessorGrid=[2, 1, 2])
     divided = GranularDecompositionReader(FileNames=[good("decomposition/all.vtk")])
-    fresh = GranularDecomposition(Input=particles, ProcessorGrid=[2, 1, 2])  # nobody has looked at it yet
+    fresh = GranularDecomposition(Input=all_particles, ProcessorGrid=[2, 1, 2])  # nobody has looked at it yet
     voxels, particles = b"DATASET UNSTRUCTURED_GRID", b"ITEM: TIMESTEP"
     assert voxels in saved(fresh, "fresh.vtk")
     assert saved(OutputPort(domains, 0), "port.vtk", time=1000 * 2e-5) == saved(domains, "other.vtk", time=1000 * 2e-5)
     assert voxels in saved(divided, "no_counts.decomposition")
-    particles.UpdatePipeline(1000 * 2e-5)
+    all_particles.UpdatePipeline(1000 * 2e-5)
     assert saved(divided, "divided.vtk", Dialect="PUBLIC") == content(good("decomposition/all.vtk"))[:248]
     assert saved(domains, "domains.dump").startswith(particles)
     assert saved(domains, "domains", writer="GranularDumpWriter").startswith(particles)
     check_refused(domains, "domains", ValueError)
-    assert b"DATASET POLYDATA" in saved(particles, "grains.vtk")  # by ParaView
+    assert b"DATASET POLYDATA" in saved(all_particles, "grains.vtk")  # by ParaView
     assert saved(domains, "domains.vtk", writer="GranularDumpWriter").startswith(particles)
     assert voxels in saved_data(domains, "run.decomposition")
     assert b"appended" in saved_data(domains, "paraview.vtu")  # ParaView's own writers keep their names

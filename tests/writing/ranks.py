@@ -153,12 +153,12 @@ def local_of_one_process():
 
 def local_of_joins():
     """Each bond once, wherever it is, in any order."""
-    particles = GranularDumpReader(FileNames=[good("local/chain.dump")])
+    all_particles = GranularDumpReader(FileNames=[good("local/chain.dump")])
     bonds = GranularLocalReader(FileNames=[good("local/chain_bonds.dump")], Preset="BondTypeIdsForce")
     names = ["id1", "id2", "elongation", "x1", "y1", "z1", "x2", "y2", "z2"]
     expected = plain_local.read(good("local/chain_bonds.dump"))[2]
     for way in ("MinimumImage", "Split"):
-        joined = GranularLocalJoin(Input=particles, Lines=OutputPort(bonds, 1), PeriodicLines=way, EquilibriumLength=1)
+        joined = GranularLocalJoin(Input=all_particles, Lines=OutputPort(bonds, 1), PeriodicLines=way, EquilibriumLength=1)
         saved(joined, "joined.bonds", Columns=names, time=1000)
         frame, = plain_local.read("joined.bonds")
         assert frame.timestep == 1000 and frame.names == names
@@ -251,8 +251,8 @@ def decomposition():
         assert saved(source, "public.vtk", Dialect="PUBLIC", **own) == public, grid
 
     # with particles, at all times; the first ranks have no particles at step 0
-    particles = GranularDumpReader(FileNames=[good("grains.dump")])
-    domains = GranularDecomposition(Input=particles, ProcessorGrid=[2, 3, 4])
+    all_particles = GranularDumpReader(FileNames=[good("grains.dump")])
+    domains = GranularDecomposition(Input=all_particles, ProcessorGrid=[2, 3, 4])
     reader, counts = lonely("DumpReader"), lonely("Decomposition", ProcessorGrid=(2, 3, 4))
     reader.AddFileName(good("grains.dump"))
     counts.SetInputConnection(reader.GetOutputPort())
