@@ -23,7 +23,7 @@ NEEDS = {"draw": "pvpython", "ranks": "pvbatch"}  # besides the VTK classes
 def can_run(study, programs):
     if study in ("bonds", "decode"):
         return (programs / f"bench_{study}").exists()
-    classes = any(Path(folder, "granular").exists() for folder in os.environ.get("PYTHONPATH", "").split(":") if folder)
+    classes = any(Path(folder, "vtkgranular").exists() for folder in os.environ.get("PYTHONPATH", "").split(":") if folder)
     return classes and (study not in NEEDS or bool(shutil.which(NEEDS[study])))
 
 
