@@ -3,6 +3,7 @@
 
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
+#include "granular/geometry/region.h"
 #include "granular/local/local_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
@@ -39,12 +40,7 @@ RunOptions run_options(const granular_open_options& options)
       "expected repeated_steps from 0 to 2, got " + std::to_string(options.repeated_steps));
   }
   made.repeated_steps = static_cast<RepeatedSteps>(options.repeated_steps);
-  std::string names = text_of(options.column_names);
-  std::ranges::replace(names, ',', ' ');
-  for (const std::string_view name : split_words(names))
-  {
-    made.column_names.emplace_back(name);
-  }
+  made.column_names = text_of(options.column_names);
   made.preset = text_of(options.preset);
   made.column_map = text_of(options.column_map);
   made.atom_style = text_of(options.atom_style);
@@ -234,11 +230,9 @@ std::unique_ptr<granular_frame> granular_run::read(
   {
     throw ArgumentError("expected bounds of a region that are numbers, got NaN");
   }
-  const auto is_bounded = [&](std::size_t axis)
-  { return asked.region[2 * axis] <= asked.region[2 * axis + 1]; };
   if (!this->kind().has_parts &&
     (asked.stride != 1 || asked.coordinates != Coordinates::Absolute || asked.sort_by_id ||
-      is_bounded(0) || is_bounded(1) || is_bounded(2)))
+      restricts(asked.region)))
   {
     throw ArgumentError(
       "expected a dump or a data file for stride, region, coordinates and sort_by_id, got "

@@ -4,18 +4,13 @@
 #include "private/dump/input_frames.h"
 #include "private/readers/series_reader.h"
 
-#include "granular/common/words.h"
 #include "granular/dump/formats/dump_files.h"
 
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 using namespace vtkGranularPrivate;
 
@@ -32,10 +27,7 @@ struct vtkGranularDumpReader::Internals : vtkGranularSeriesReader::Internals
 
   void SetOptions(granular::RunOptions& options) const override
   {
-    std::string names = this->Reader->ColumnNames; // no column has a comma in its name
-    std::ranges::replace(names, ',', ' ');
-    const std::vector<std::string_view> words = granular::split_words(names);
-    options.column_names.assign(words.begin(), words.end());
+    options.column_names = this->Reader->ColumnNames;
   }
 
   void SetRequest(granular::Request& request) const override

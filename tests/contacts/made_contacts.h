@@ -164,7 +164,7 @@ private:
   granular::FrameView view_;
 };
 
-/// What is found for a particle.
+/// The sums for a particle.
 struct Sums
 {
   std::int32_t coordination = 0;

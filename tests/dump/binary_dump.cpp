@@ -156,7 +156,7 @@ void expect_header(const Dump& dump, std::size_t index, const Form& form, const 
   EXPECT_EQ(std::isnan(dump.entry(index).time), !frame.time);
 }
 
-/// Whether a frame of binary::particles is read as it was written.
+/// Returns true if a frame of binary::particles is read as it was written.
 void expect_particles(const Dump& dump, std::size_t index, const Frame& frame)
 {
   const Decoded got = dump.read({}, index);

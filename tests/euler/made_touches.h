@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// Of the particles id1 and id2, which are numbered from 1, or of id2 with a wall.
+/// The contact of the particles id1 and id2, which are numbered from 1, or of id2 with a wall.
 struct Touch
 {
   std::int64_t id1 = 0;

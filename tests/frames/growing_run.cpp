@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t step_size = 7; // steps of all lengths: 0, 7, ... 98, 105, ...
 
-/// How many particles there are at a step: more and more, as they are poured, but also none.
+/// Returns the number of particles at a step: more and more, as they are poured, but also none.
 std::int64_t rows_at(std::int64_t frame, std::int64_t most)
 {
   return frame % 10 == 9 ? 0 : (frame * 7919) % most;

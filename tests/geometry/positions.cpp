@@ -428,7 +428,7 @@ TEST(Positions, EveryConversionIsWithinItsBound)
 
 namespace
 {
-/// What becomes of one particle.
+/// The outcome for one particle.
 Vector3 convert(const std::string& columns, const Box& box, Coordinates wanted,
   const Vector3& numbers, const Vector3& images = {}, const Vector3& point_origin = {})
 {

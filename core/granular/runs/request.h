@@ -15,7 +15,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace granular
 {
@@ -23,7 +22,8 @@ namespace granular
 struct RunOptions
 {
   RepeatedSteps repeated_steps = RepeatedSteps::Auto; ///< where several files may hold one frame
-  std::vector<std::string> column_names; ///< dumps: columns of binary files that do not name them
+  std::string
+    column_names; ///< dumps: columns of binary files that do not name them; blanks or commas between
   std::string preset;     ///< local: of local_presets, AsNamed, or Automatic as when it is empty
   std::string column_map; ///< local: see name_columns
   std::string atom_style; ///< data files: see find_data_columns

@@ -4,9 +4,11 @@
 #include "granular/common/archive.h"
 #include "granular/common/error.h"
 #include "granular/common/pass.h"
+#include "granular/common/words.h"
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 namespace granular
@@ -15,8 +17,11 @@ namespace
 {
 IndexOptions index_options(const Kind& kind, const RunOptions& options)
 {
+  std::string names = options.column_names; // no column has a comma in its name
+  std::ranges::replace(names, ',', ' ');
+  const std::vector<std::string_view> words = split_words(names);
   return { .format = &kind.format(),
-    .column_names = options.column_names,
+    .column_names = { words.begin(), words.end() },
     .repeated_steps = kind.has_pieces ? options.repeated_steps
                                       : RepeatedSteps::Last, // no file is a piece of another
     .threads = options.threads };
