@@ -7,16 +7,23 @@ namespace vtkGranularGrainShaders
 {
 constexpr const char* FragmentInputs = R"(
 //GRANULAR::Shapes
-flat in vec3 centerVCVSOutput; // from the place
-flat in float radiusVCVSOutput;
+flat in real3 centerVCVSOutput; // from the place
+flat in real radiusVCVSOutput;
 uniform vec3 placeVC;
+uniform vec3 placeVCLow;
 uniform vec2 placeTangent; // x and y of VC where the line from the camera to the place meets z = -1
-uniform vec4 placePixel; // where the picture shows the place: whole pixels, and parts of one
+uniform vec2 placeTangentLow;
+uniform vec2 placePixel; // where the picture shows the place: whole pixels, and parts of one
+uniform vec2 placePart;
+uniform vec2 placePartLow;
 uniform vec2 pixelVC; // the size of a pixel at z = -1, or at any z if parallel
+uniform vec2 pixelVCLow;
 uniform int cameraParallel;
 uniform float nearVC; // z of the near plane
 uniform vec2 middleVC; // z of the place from where the depth is 1/2, and the change of depth with z there, times w
+uniform vec2 middleVCLow;
 uniform vec2 farVC; // the same for where it is 1
+uniform vec2 farVCLow;
 #ifdef CLIPS
 uniform vec4 clipVC[CLIPS];
 #endif
@@ -39,41 +46,46 @@ bool isLeft(vec3 place)
 // Finds the point of the surface on the ray: in front, or behind if the front is cut away.
 constexpr const char* FragmentSurface = R"(
   // From the centre to a point of the ray near it. All is counted from the place, so that numbers are small and digits are kept.
-  float radiusVC = radiusVCVSOutput;
-  vec3 centerVC = placeVC + centerVCVSOutput;
-  vec2 tangentVC = ((gl_FragCoord.xy - placePixel.xy) - placePixel.zw) * pixelVC; // from that of the place
-  vec3 offsetVC = vec3(tangentVC - centerVCVSOutput.xy, 0.0);
-  vec3 rayVC = vec3(0.0, 0.0, -radiusVC);
+  real radiusVC = radiusVCVSOutput;
+  real2 placeAt = real2(placeTangent) + real2(placeTangentLow);
+  real3 centerVC = real3(placeVC) + real3(placeVCLow) + centerVCVSOutput;
+  real2 pixelsVC = real2(gl_FragCoord.xy - placePixel) - real2(placePart) - real2(placePartLow);
+  real2 tangentVC = pixelsVC * (real2(pixelVC) + real2(pixelVCLow)); // from that of the place
+  real3 offsetVC = real3(tangentVC - centerVCVSOutput.xy, 0.0);
+  real3 rayVC = real3(0.0, 0.0, -radiusVC);
   if (cameraParallel == 0)
   {
-    float awayVC = max(radiusVC, -centerVC.z);
-    rayVC = vec3((placeTangent + tangentVC) * awayVC, -awayVC);
+    real awayVC = max(radiusVC, -centerVC.z);
+    rayVC = real3((placeAt + tangentVC) * awayVC, -awayVC);
     offsetVC.z = -awayVC - centerVC.z;
-    offsetVC.xy = tangentVC * awayVC - placeTangent * (centerVCVSOutput.z + offsetVC.z) - centerVCVSOutput.xy;
+    offsetVC.xy = tangentVC * awayVC - placeAt * (centerVCVSOutput.z + offsetVC.z) - centerVCVSOutput.xy;
   }
-  vec3 surfaceVC = vec3(0.0);
+  real3 surfaceVC = real3(0.0);
   vec3 normalVCVSOutput = vec3(0.0, 0.0, 1.0);
 #ifdef HAVE_SHAPES
-  vec3 from = offsetVC * turnVCVSOutput / axesVCVSOutput;
-  vec3 along = rayVC * turnVCVSOutput / axesVCVSOutput;
+  real3 from = offsetVC * turnVCVSOutput / axesVCVSOutput;
+  real3 along = rayVC * turnVCVSOutput / axesVCVSOutput;
   if (powersVSOutput != vec2(2.0))
   {
-    along = mix(along, vec3(1e-20), lessThan(abs(along), vec3(1e-20)));
-    vec3 low = (-1.0 - from) / along, high = (1.0 - from) / along;
+    vec3 o = vec3(from), d = vec3(along);
+    d = mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20)));
+    vec3 low = (-1.0 - o) / d, high = (1.0 - o) / d;
     vec3 first = min(low, high), last = max(low, high);
     float enter = max(first.x, max(first.y, first.z)), leave = min(last.x, min(last.y, last.z));
-    vec3 gradient = vec3(0.0);
     bool found = false; // nor beside the cube around the particle, where powers could be more than floats hold
     for (float side = 1.0; side >= -1.0 && enter <= leave && !found; side -= 2.0)
     {
-      float t = side > 0.0 ? enter : leave;
-      if (!meets(from, along, powersVSOutput, side, t, gradient))
+      float near = side > 0.0 ? enter : leave;
+      if (!meets(o, d, powersVSOutput, side, near))
       {
         break;
       }
+      real3 gradient;
+      real step = step_of(from + near * along, along, powersVSOutput, gradient);
+      real t = near - clamp(step, -1e-4 / length(d), 1e-4 / length(d)); // where a ray only touches, steps are of any length
       surfaceVC = offsetVC + t * rayVC;
-      normalVCVSOutput = side * normalize(turnVCVSOutput * (gradient / axesVCVSOutput));
-      found = isLeft(centerVC + surfaceVC);
+      normalVCVSOutput = vec3(side * normalize(turnVCVSOutput * (gradient / axesVCVSOutput)));
+      found = isLeft(vec3(centerVC + surfaceVC));
     }
     if (!found)
     {
@@ -82,49 +94,50 @@ constexpr const char* FragmentSurface = R"(
   }
   else
 #else
-  vec3 from = offsetVC / radiusVC;
-  vec3 along = rayVC / radiusVC;
+  real3 from = offsetVC / radiusVC;
+  real3 along = rayVC / radiusVC;
 #endif
   {
-    float rayA = dot(along, along);
-    float rayB = dot(from, along);
-    float rayD = rayB * rayB - rayA * (dot(from, from) - 1.0);
+    real rayA = dot(along, along);
+    real rayB = dot(from, along);
+    real rayD = rayB * rayB - rayA * (dot(from, from) - 1.0);
     if (rayD < 0.0)
     {
       discard;
     }
-    float t = -(rayB + sqrt(rayD)) / rayA;
-    vec3 unit = from + t * along;
+    real t = -(rayB + sqrt(rayD)) / rayA;
+    real3 unit = from + t * along;
     surfaceVC = offsetVC + t * rayVC;
-    if (!isLeft(centerVC + surfaceVC))
+    if (!isLeft(vec3(centerVC + surfaceVC)))
     {
       t = (sqrt(rayD) - rayB) / rayA;
       unit = -(from + t * along);
       surfaceVC = offsetVC + t * rayVC;
-      if (!isLeft(centerVC + surfaceVC))
+      if (!isLeft(vec3(centerVC + surfaceVC)))
       {
         discard;
       }
     }
 #ifdef HAVE_SHAPES
-    normalVCVSOutput = normalize(turnVCVSOutput * (unit / axesVCVSOutput));
+    normalVCVSOutput = vec3(normalize(turnVCVSOutput * (unit / axesVCVSOutput)));
 #else
-    normalVCVSOutput = unit;
+    normalVCVSOutput = vec3(unit);
 #endif
   }
   vertexVC = vec4(centerVC + surfaceVC, 1.0);
-  float w = cameraParallel != 0 ? 1.0 : -vertexVC.z;
-  float fromMiddle = middleVC.x + centerVCVSOutput.z + surfaceVC.z;
-  gl_FragDepth = 0.5 + fromMiddle * middleVC.y / w;
-  if (gl_FragDepth > 0.875) // digits are lost with the distance from where a depth is known
+  real w = cameraParallel != 0 ? real(1.0) : -(centerVC.z + surfaceVC.z);
+  real2 middle = real2(middleVC) + real2(middleVCLow);
+  real depth = 0.5 + (middle.x + centerVCVSOutput.z + surfaceVC.z) * middle.y / w;
+  if (depth > 0.875) // digits are lost with the distance from where a depth is known
   {
-    float fromFar = farVC.x + centerVCVSOutput.z + surfaceVC.z;
-    gl_FragDepth = 1.0 + fromFar * farVC.y / w;
+    real2 end = real2(farVC) + real2(farVCLow);
+    depth = 1.0 + (end.x + centerVCVSOutput.z + surfaceVC.z) * end.y / w;
   }
-  if (gl_FragDepth > 1.0)
+  if (depth > 1.0)
   {
     discard;
   }
+  gl_FragDepth = float(depth);
 )";
 }
 

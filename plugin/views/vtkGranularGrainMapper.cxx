@@ -6,15 +6,14 @@
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
 #include "vtkGranularGrainShapes.h"
+#include "vtkGranularGrainView.h"
 #include "vtkGranularSuperquadrics.h"
-#include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLCamera.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
@@ -29,14 +28,15 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 
 namespace
 {
-constexpr int MostClips = 6;                      // as VTK has it
-constexpr unsigned int ViewportOfOpenGL = 0x0BA2; // the header of GL_VIEWPORT depends on VTK
+constexpr int MostClips = 6; // as VTK has it
 
 void Replace(vtkShader* shader, const char* mark, const std::string& text)
 {
@@ -45,12 +45,34 @@ void Replace(vtkShader* shader, const char* mark, const std::string& text)
   shader->SetSource(source);
 }
 
-vtkSmartPointer<vtkFloatArray> MakeFloats(vtkIdType tuples, int components)
+template <typename Array>
+vtkSmartPointer<Array> MakeArray(vtkIdType tuples, int components)
 {
-  auto made = vtkSmartPointer<vtkFloatArray>::New();
+  auto made = vtkSmartPointer<Array>::New();
   made->SetNumberOfComponents(components);
   made->SetNumberOfTuples(tuples);
   return made;
+}
+
+// Splits a number into a float and what that lacks, in steps of 1/254 of its last place from 1 to 255. The programs put them together.
+void Split(double number, float& high, unsigned char& low)
+{
+  high = static_cast<float>(number);
+  const auto power = std::bit_cast<float>(std::bit_cast<std::uint32_t>(high) & 0x7F800000U); // of 2
+  const double part = std::ldexp(number - high, 24) / power;
+  low = static_cast<unsigned char>(std::isfinite(part) ? 128.5 + 127.0 * part : 128.0);
+}
+
+// Splits what tells of one particle.
+void Split(
+  const double* numbers, int count, vtkIdType i, vtkFloatArray* high, vtkUnsignedCharArray* low)
+{
+  float* highs = high->GetPointer(count * i);
+  unsigned char* lows = low->GetPointer(4 * i);
+  for (int k = 0; k < count; ++k)
+  {
+    Split(numbers[k], highs[k], lows[k]);
+  }
 }
 
 // Returns an array, or nullptr.
@@ -58,97 +80,6 @@ vtkDataArray* Find(vtkPolyData* data, const char* name)
 {
   return name ? data->GetPointData()->GetArray(name) : nullptr;
 }
-
-// The way from the buffers, which are counted from a place, to the picture.
-struct View
-{
-  View(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& from)
-    : Camera(static_cast<vtkOpenGLCamera*>(renderer->GetActiveCamera()))
-    , Scale(static_cast<float>(std::cbrt(std::abs(actor->GetMatrix()->Determinant()))))
-    , Near(static_cast<float>(-this->Camera->GetClippingRange()[0]))
-  {
-    vtkMatrix4x4* worldToCamera;
-    vtkMatrix3x3* normals;
-    vtkMatrix4x4* worldToPicture;
-    this->Camera->GetKeyMatrices(
-      renderer, worldToCamera, normals, this->CameraToPicture, worldToPicture);
-    vtkMatrix4x4::Multiply4x4(
-      this->Camera->GetModelViewTransformMatrix(), actor->GetMatrix(), this->ToCamera);
-    double place[4] = { from[0], from[1], from[2], 1.0 };
-    this->ToCamera->MultiplyPoint(place, place);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->ToCamera->SetElement(axis, 3, place[axis]); // in doubles until here
-    }
-  }
-
-  // OpenGL's matrices are applied to rows.
-  double Element(int row, int column) const
-  {
-    return this->CameraToPicture->GetElement(column, row);
-  }
-
-  // The picture, from -1 to 1, is Zoom x + Middle of a place at z = -1, or of any place if parallel.
-  double Zoom(int axis) const { return this->Element(axis, axis); }
-  double Middle(int axis) const
-  {
-    return this->IsParallel() ? this->Element(axis, 3) : -this->Element(axis, 2);
-  }
-
-  bool IsParallel() const { return this->Camera->GetParallelProjection() != 0; }
-  double Place(int axis) const { return this->ToCamera->GetElement(axis, 3); }
-  bool IsInFront() const { return this->Place(2) < 0.5 * this->Near; }
-
-  // Returns where the line from the camera to the place meets z = -1; 0 if it is the camera.
-  double Tangent(int axis) const
-  {
-    if (this->IsParallel())
-    {
-      return this->Place(axis);
-    }
-    return this->IsInFront() ? -this->Place(axis) / this->Place(2) : 0.0;
-  }
-
-  // The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from where the picture's
-  // z is a given one, and the change of the depth with z there, times w = c z + d.
-  std::array<float, 2> DepthFrom(double pictures) const
-  {
-    const double a = this->Element(2, 2);
-    const double b = this->Element(2, 3);
-    const double c = this->Element(3, 2);
-    const double d = this->Element(3, 3);
-    const double z = (pictures * d - b) / (a - pictures * c);
-    return { static_cast<float>(this->Place(2) - z),
-      static_cast<float>(0.5 * (a * d - b * c) / (c * z + d)) };
-  }
-
-  vtkGranularHiddenGrains::View ForHidden() const
-  {
-    vtkGranularHiddenGrains::View made;
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int k = 0; k < 4; ++k)
-      {
-        made.ToCamera[i][k] = static_cast<float>(this->ToCamera->GetElement(i, k));
-      }
-    }
-    made.Parallel = this->IsParallel();
-    for (int i = 0; i < 2; ++i)
-    {
-      made.Scale[i] = static_cast<float>(this->Zoom(i));
-      made.Middle[i] = static_cast<float>(this->Middle(i));
-    }
-    made.Near = this->Near;
-    made.Radius = this->Scale;
-    return made;
-  }
-
-  vtkOpenGLCamera* Camera;
-  vtkMatrix4x4* CameraToPicture;
-  vtkNew<vtkMatrix4x4> ToCamera;
-  float Scale; // of lengths
-  float Near;  // z of the near plane
-};
 }
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
@@ -166,22 +97,25 @@ vtkGranularGrainMapper::Place vtkGranularGrainMapper::InData(const Place& place,
   return { moved[0], moved[1], moved[2] };
 }
 
-// Returns the coordinates of the points, all or those that are seen.
-vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(
-  const Counting& counting, vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen)
+// Returns the coordinates of the points, all or those that are seen, and writes what they lack, four a point, if that is asked for.
+vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(const Counting& counting,
+  vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen, unsigned char* lows)
 {
   const vtkIdType count =
     seen ? static_cast<vtkIdType>(seen->Grains.size()) : points->GetNumberOfTuples();
-  auto made = MakeFloats(count, 3);
+  auto made = MakeArray<vtkFloatArray>(count, 3);
   float* to = made->GetPointer(0);
   for (vtkIdType i = 0; i < count; ++i)
   {
     double at[3];
     points->GetTuple(seen ? seen->Grains[static_cast<std::size_t>(i)] : i, at);
     std::transform(at, at + 3, counting.From.begin(), at, std::minus<>());
-    for (const double* axis = counting.Axes.data(); axis != counting.Axes.data() + 9; axis += 3)
+    for (int k = 0; k < 3; ++k)
     {
-      *to++ = static_cast<float>(axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2]);
+      const double* axis = counting.Axes.data() + 3 * k;
+      unsigned char low;
+      Split(
+        axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2], *to++, lows ? lows[4 * i + k] : low);
     }
   }
   return made;
@@ -192,18 +126,15 @@ vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(
 vtkGranularGrainMapper::Counting vtkGranularGrainMapper::ChooseCounting(
   vtkRenderer* renderer, vtkActor* actor, const Place& middle)
 {
-  const View view(renderer, actor, middle);
-  vtkCamera* camera = view.Camera;
+  const vtkGranularGrainView view(renderer, actor, middle);
+  vtkCamera* camera = view.GetCamera();
   const double* range = camera->GetClippingRange();
   Counting chosen{ middle };
   if (!view.IsParallel() && !(view.IsInFront() && 3.0 * range[0] > range[1]))
   {
     camera->GetPosition(chosen.From.data());
     chosen.From = InData(chosen.From, actor);
-    for (int i = 0; i < 9; ++i)
-    {
-      chosen.Axes[static_cast<std::size_t>(i)] = view.ToCamera->GetElement(i / 3, i % 3);
-    }
+    chosen.Axes = view.Turn();
   }
   return chosen;
 }
@@ -259,8 +190,10 @@ void vtkGranularGrainMapper::ReplaceShaderValues(
   const std::string clips = planes > 0 ? "#define CLIPS " + std::to_string(planes) : "";
   for (const auto& [type, shader] : shaders)
   {
-    Replace(
-      shader, "//GRANULAR::Shapes", (this->HaveShapes ? "#define HAVE_SHAPES\n" : "") + clips);
+    Replace(shader, "//VTK::System::Dec", vtkGranularGrainShaders::Extensions);
+    Replace(shader, "//GRANULAR::Shapes",
+      vtkGranularGrainShaders::Reals +
+        std::string(this->HaveShapes ? "#define HAVE_SHAPES\n" : "") + clips);
   }
 }
 
@@ -268,8 +201,18 @@ void vtkGranularGrainMapper::ReplaceShaderPositionVC(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
 {
   vtkShader* fragment = shaders[vtkShader::Fragment];
-  Replace(fragment, "//VTK::PositionVC::Dec",
-    std::string(vtkGranularGrainShaders::FragmentInputs) + vtkGranularGrainShaders::Superquadrics);
+  std::string inputs = vtkGranularGrainShaders::FragmentInputs;
+  if (this->HaveShapes)
+  {
+    using namespace vtkGranularGrainShaders;
+    for (const char* part : { ShapeInputs, InFloats, "#ifdef HAVE_DOUBLES", RoughPower, "#else",
+           FloatsAlone, Power, "#endif\n", Superquadrics, Meets, "#ifdef HAVE_DOUBLES", InDoubles,
+           Power, Superquadrics, "#endif\n" })
+    {
+      inputs += part;
+    }
+  }
+  Replace(fragment, "//VTK::PositionVC::Dec", inputs);
   Replace(fragment, "//VTK::PositionVC::Impl", "vec4 vertexVC = vec4(0.0);\n");
 }
 
@@ -289,54 +232,9 @@ void vtkGranularGrainMapper::ReplaceShaderClip(
 void vtkGranularGrainMapper::SetCameraShaderParameters(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
-  const View view(renderer, actor, this->Counted.From);
-  vtkShaderProgram* program = helper.Program;
-  const bool isOfCamera = this->Counted.Axes != Counting().Axes;
-  float toCamera[2][9]; // the buffers' coordinates and the data's, column by column
-  for (int i = 0; i < 9; ++i)
-  {
-    toCamera[1][i] = static_cast<float>(view.ToCamera->GetElement(i % 3, i / 3));
-    toCamera[0][i] = isOfCamera ? (i % 4 == 0 ? 1.0F : 0.0F) : toCamera[1][i];
-  }
-  program->SetUniformMatrix3x3("bufferVC", toCamera[0]);
-  program->SetUniformMatrix3x3("dataVC", toCamera[1]);
-  program->SetUniformf("scaleVC", view.Scale);
-  program->SetUniformi("cameraParallel", view.IsParallel() ? 1 : 0);
-  program->SetUniformf("nearVC", view.Near);
-  const vtkGranularHiddenGrains::View picture = view.ForHidden();
-  const float toPicture[4] = { picture.Scale[0], picture.Scale[1], picture.Middle[0],
-    picture.Middle[1] };
-  program->SetUniform4f("pictureVC", toPicture);
-  int viewport[4]; // also of passes that draw into pictures of their own
-  static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())
-    ->GetState()
-    ->vtkglGetIntegerv(ViewportOfOpenGL, viewport);
-  float place[3];
-  float pixelSizes[2];
-  float tangents[2];
-  float pixels[4];
-  for (int i = 0; i < 3; ++i)
-  {
-    place[i] = static_cast<float>(view.Place(i));
-  }
-  for (int i = 0; i < 2; ++i)
-  {
-    const double tangent = view.Tangent(i);
-    const double pixel =
-      viewport[i] + 0.5 * viewport[i + 2] * (1.0 + view.Zoom(i) * tangent + view.Middle(i));
-    tangents[i] = static_cast<float>(tangent);
-    pixels[i] = std::floor(static_cast<float>(pixel));
-    pixels[i + 2] = static_cast<float>(pixel - pixels[i]);
-    pixelSizes[i] = static_cast<float>(2.0 / (viewport[i + 2] * view.Zoom(i)));
-  }
-  program->SetUniform3f("placeVC", place);
-  program->SetUniform2f("placeTangent", tangents);
-  program->SetUniform4f("placePixel", pixels);
-  program->SetUniform2f("pixelVC", pixelSizes);
-
-  program->SetUniform2f("middleVC", view.DepthFrom(0.0).data());
-  program->SetUniform2f("farVC", view.DepthFrom(1.0).data());
-  this->SetClips(program, view.Camera->GetModelViewTransformMatrix());
+  const vtkGranularGrainView view(renderer, actor, this->Counted.From);
+  view.Set(helper.Program, renderer, this->Counted.Axes != Counting().Axes);
+  this->SetClips(helper.Program, view.GetCamera()->GetModelViewTransformMatrix());
 }
 
 int vtkGranularGrainMapper::CountClips()
@@ -380,8 +278,10 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   vtkPolyData* data = this->CurrentInput;
   const vtkIdType count = data->GetNumberOfPoints();
   this->Values.clear();
-  this->Values["vertexMC"] = Count({ this->From }, data->GetPoints()->GetData(), nullptr);
-  auto radii = MakeFloats(count, 1);
+  this->Values["vertexMC"] = Count({ this->From }, data->GetPoints()->GetData(), nullptr, nullptr);
+  auto radii = MakeArray<vtkFloatArray>(count, 1);
+  auto lows = MakeArray<vtkUnsignedCharArray>(count, 4);
+  std::vector<double> sizes(static_cast<std::size_t>(count));
   const char* name = this->Owner->GetScaleArray();
   vtkDataArray* given = Find(data, name);
   const double same = name && name[0] ? 0.0 : 1.0; // where there is no such array
@@ -389,11 +289,14 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   {
     const double radius =
       this->Growth * this->Owner->GetScaleFactor() * (given ? given->GetComponent(i, 0) : same);
-    radii->SetValue(i, static_cast<float>(std::isfinite(radius) ? radius : 0.0));
+    double& size = sizes[static_cast<std::size_t>(i)];
+    size = std::isfinite(radius) ? radius : 0.0;
+    Split(size, *radii->GetPointer(i), *lows->GetPointer(4 * i + 3));
   }
   this->Inner = radii;
-  this->BuildShapes(radii);
+  this->BuildShapes(sizes, radii);
   this->Values["radiusMC"] = radii;
+  this->Values["lowMC"] = lows;
   this->BuildColors(actor);
   this->HasAll = false;
   this->Built = this->From;
@@ -404,14 +307,12 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
 void vtkGranularGrainMapper::Upload(
   vtkRenderer* renderer, const vtkGranularHiddenGrains::Seen* seen)
 {
-  for (const char* name : { "vertexMC", "radiusMC", "scalarColor", "axesMC", "turnMC", "powersMC" })
+  vtkDataArray* points = this->CurrentInput->GetPoints()->GetData();
+  for (const char* name : { "lowMC", "radiusMC", "scalarColor", "axesMC", "axesLowMC", "turnMC",
+         "turnLowMC", "powersMC" })
   {
     vtkSmartPointer<vtkDataArray> values = this->Values[name];
-    if (name == std::string("vertexMC"))
-    {
-      values = Count(this->Counted, this->CurrentInput->GetPoints()->GetData(), seen);
-    }
-    else if (values && seen)
+    if (values && seen)
     {
       values = vtk::TakeSmartPointer(values->NewInstance());
       values->SetNumberOfComponents(this->Values[name]->GetNumberOfComponents());
@@ -424,8 +325,14 @@ void vtkGranularGrainMapper::Upload(
         to = std::copy_n(from + size * i, size, to);
       }
     }
-    this->VBOs->CacheDataArray(
-      name, values, renderer, std::string(name) == "scalarColor" ? VTK_UNSIGNED_CHAR : VTK_FLOAT);
+    if (name == std::string("lowMC"))
+    {
+      auto* lows = vtkUnsignedCharArray::SafeDownCast(values)->GetPointer(0);
+      this->VBOs->CacheDataArray(
+        "vertexMC", Count(this->Counted, points, seen, lows), renderer, VTK_FLOAT);
+      values->Modified();
+    }
+    this->VBOs->CacheDataArray(name, values, renderer, values ? values->GetDataType() : VTK_FLOAT);
   }
   vtkNew<vtkUnsignedCharArray> parts;
   parts->SetNumberOfComponents(4);
@@ -467,7 +374,7 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
   grains.Inner = this->Inner->GetPointer(0);
   grains.Count = count;
   const vtkGranularHiddenGrains::Seen& seen =
-    this->Hidden.Find(View(renderer, actor, this->From).ForHidden(), grains);
+    this->Hidden.Find(vtkGranularGrainView(renderer, actor, this->From).ForHidden(), grains);
   if (2 * static_cast<vtkIdType>(seen.Grains.size()) > count)
   {
     return false;
@@ -477,7 +384,7 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
 }
 
 // Loads the shapes, if there are any; the radii become those of spheres around them.
-void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
+void vtkGranularGrainMapper::BuildShapes(const std::vector<double>& given, vtkFloatArray* radii)
 {
   const vtkGranularGrainShapes shapes(this->CurrentInput, this->Owner->GetShapeSizes());
   if (this->HaveShapes != shapes.Any())
@@ -490,21 +397,21 @@ void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
     return;
   }
   const vtkIdType count = radii->GetNumberOfTuples();
-  auto axes = MakeFloats(count, 3);
-  auto turns = MakeFloats(count, 4);
-  auto powers = MakeFloats(count, 2);
-  auto inner = MakeFloats(count, 1);
+  auto axes = MakeArray<vtkFloatArray>(count, 3);
+  auto turns = MakeArray<vtkFloatArray>(count, 4);
+  auto axesLows = MakeArray<vtkUnsignedCharArray>(count, 4);
+  auto turnLows = MakeArray<vtkUnsignedCharArray>(count, 4);
+  auto powers = MakeArray<vtkFloatArray>(count, 2);
+  auto inner = MakeArray<vtkFloatArray>(count, 1);
   const double factor = this->Growth * this->Owner->GetScaleFactor();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double radius = factor > 0.0 ? radii->GetValue(i) / factor : 0.0;
-    const vtkGranularGrainShapes::Shape shape = shapes.Get(i, radius);
-    for (int k = 0; k < 3; ++k)
-    {
-      axes->SetTypedComponent(
-        i, k, static_cast<float>(factor * shape.Axes[static_cast<std::size_t>(k)]));
-    }
-    turns->SetTuple(i, shape.Turn.data());
+    const double radius = factor > 0.0 ? given[static_cast<std::size_t>(i)] / factor : 0.0;
+    vtkGranularGrainShapes::Shape shape = shapes.Get(i, radius);
+    std::for_each(shape.Axes.begin(), shape.Axes.end(), [&](double& axis) { axis *= factor; });
+    Split(shape.Axes.data(), 3, i, axes, axesLows);
+    axesLows->SetTypedComponent(i, 3, 128); // VTK wants a multiple of 4 bytes
+    Split(shape.Turn.data(), 4, i, turns, turnLows);
     powers->SetTuple(i, shape.Powers.data());
     radii->SetValue(i, static_cast<float>(factor * shape.Outer));
     inner->SetValue(i, static_cast<float>(factor * shape.Inner));
@@ -512,6 +419,8 @@ void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
   this->Inner = inner;
   this->Values["axesMC"] = axes;
   this->Values["turnMC"] = turns;
+  this->Values["axesLowMC"] = axesLows;
+  this->Values["turnLowMC"] = turnLows;
   this->Values["powersMC"] = powers;
 }
 

@@ -99,10 +99,10 @@ private:
   };
 
   static Counting ChooseCounting(vtkRenderer* renderer, vtkActor* actor, const Place& middle);
-  static vtkSmartPointer<vtkFloatArray> Count(
-    const Counting& counting, vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen);
+  static vtkSmartPointer<vtkFloatArray> Count(const Counting& counting, vtkDataArray* points,
+    const vtkGranularHiddenGrains::Seen* seen, unsigned char* lows);
   void SetClips(vtkShaderProgram* program, vtkMatrix4x4* worldToCamera);
-  void BuildShapes(vtkFloatArray* radii);
+  void BuildShapes(const std::vector<double>& given, vtkFloatArray* radii);
   void BuildColors(vtkActor* actor);
   void Upload(vtkRenderer* renderer, const vtkGranularHiddenGrains::Seen* seen);
   int CountClips();

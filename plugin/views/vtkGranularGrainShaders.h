@@ -4,47 +4,90 @@
 
 // Programs of the graphics hardware for vtkGranularGrainMapper. VTK replaces what begins with //VTK:: by colours, lights and selection.
 // VC are the coordinates of the camera, which looks along -z; MC those of the buffers: counted from a place in view along the data's axes, or VC. Where HAVE_SHAPES is
-// defined, particles are superquadrics; else spheres.
+// defined, particles are superquadrics; else spheres. A real is a double where the hardware has them: a float holds too little of the
+// depth near a camera. Numbers come as floats and what these lack.
 namespace vtkGranularGrainShaders
 {
+constexpr const char* Extensions = R"(//VTK::System::Dec
+#extension GL_ARB_gpu_shader_fp64 : enable
+#extension GL_ARB_shader_bit_encoding : enable
+)";
+
+constexpr const char* Reals = R"(
+#if defined(GL_ARB_gpu_shader_fp64) && defined(GL_ARB_shader_bit_encoding)
+#define HAVE_DOUBLES
+#define real double
+#define real2 dvec2
+#define real3 dvec3
+#define real3x3 dmat3
+#else
+#define real float
+#define real2 vec2
+#define real3 vec3
+#define real3x3 mat3
+#endif
+)";
+
 constexpr const char* Vertex = R"(//VTK::System::Dec
 //GRANULAR::Shapes
 in vec4 vertexMC;
 in float radiusMC; // of a sphere around the particle
+in vec4 lowMC; // what x y z and the radius lack
 in vec4 partMC; // of the square around the particle that may be seen: low and high x and y, as parts of it
 uniform mat3 bufferVC; // from MC to VC
-uniform float scaleVC;
-out vec3 centerVCVSOutput; // from the place
-out float radiusVCVSOutput;
+uniform mat3 bufferVCLow;
+uniform vec2 scaleVC;
+out real3 centerVCVSOutput; // from the place
+out real radiusVCVSOutput;
 out vec4 partVSOutput;
 #ifdef HAVE_SHAPES
 uniform mat3 dataVC;
+uniform mat3 dataVCLow;
 in vec3 axesMC;
+in vec4 axesLowMC;
 in vec4 turnMC; // w x y z
+in vec4 turnLowMC;
 in vec2 powersMC; // n1 along z, n2 across it
-out mat3 turnVCVSOutput;
-out vec3 axesVCVSOutput;
+out real3x3 turnVCVSOutput;
+out real3 axesVCVSOutput;
 out vec2 powersVSOutput;
 #endif
 //VTK::Color::Dec
 //VTK::Picking::Dec
 
+// A number, of a float and a byte: 1 to 255 for -1/2 to 1/2 of the float's last place.
+real whole(float high, float low)
+{
+#ifdef HAVE_DOUBLES
+  float power = uintBitsToFloat(floatBitsToUint(high) & 0x7F800000u); // of 2
+  return real(high) + real(low * 255.0 - 128.0) * real(power) * real(1.0 / (127.0 * 16777216.0));
+#else
+  return high;
+#endif
+}
+
+real3 whole3(vec3 high, vec3 low)
+{
+  return real3(whole(high.x, low.x), whole(high.y, low.y), whole(high.z, low.z));
+}
+
 void main()
 {
   //VTK::Color::Impl
-  radiusVCVSOutput = radiusMC * scaleVC;
+  real scale = real(scaleVC.x) + real(scaleVC.y);
+  radiusVCVSOutput = whole(radiusMC, lowMC.w) * scale;
   partVSOutput = partMC;
-  centerVCVSOutput = bufferVC * vertexMC.xyz;
+  centerVCVSOutput = (real3x3(bufferVC) + real3x3(bufferVCLow)) * whole3(vertexMC.xyz, lowMC.xyz);
   gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef HAVE_SHAPES
-  float w = turnMC.x;
-  vec3 q = turnMC.yzw;
-  mat3 turn = mat3(
+  real w = whole(turnMC.x, turnLowMC.x);
+  real3 q = whole3(turnMC.yzw, turnLowMC.yzw);
+  real3x3 turn = real3x3(
     1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y + w * q.z), 2.0 * (q.x * q.z - w * q.y),
     2.0 * (q.x * q.y - w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z + w * q.x),
     2.0 * (q.x * q.z + w * q.y), 2.0 * (q.y * q.z - w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
-  turnVCVSOutput = dataVC * turn / scaleVC;
-  axesVCVSOutput = axesMC * scaleVC;
+  turnVCVSOutput = (real3x3(dataVC) + real3x3(dataVCLow)) * turn / scale;
+  axesVCVSOutput = whole3(axesMC, axesLowMC.xyz) * scale;
   powersVSOutput = powersMC;
 #endif
   //VTK::Picking::Impl
@@ -61,17 +104,17 @@ layout(triangle_strip, max_vertices = 4) out;
 uniform vec4 pictureVC; // x y of the picture are pictureVC.xy times x y of VC at z = -1, or at any z if parallel, and pictureVC.zw
 uniform int cameraParallel;
 uniform vec3 placeVC;
-in vec3 centerVCVSOutput[];
-in float radiusVCVSOutput[];
+in real3 centerVCVSOutput[];
+in real radiusVCVSOutput[];
 in vec4 partVSOutput[];
-flat out vec3 centerVCGSOutput;
-flat out float radiusVCGSOutput;
+flat out real3 centerVCGSOutput;
+flat out real radiusVCGSOutput;
 #ifdef HAVE_SHAPES
-in mat3 turnVCVSOutput[];
-in vec3 axesVCVSOutput[];
+in real3x3 turnVCVSOutput[];
+in real3 axesVCVSOutput[];
 in vec2 powersVSOutput[];
-flat out mat3 turnVCGSOutput;
-flat out vec3 axesVCGSOutput;
+flat out real3x3 turnVCGSOutput;
+flat out real3 axesVCGSOutput;
 flat out vec2 powersGSOutput;
 #endif
 //VTK::PrimID::Dec
@@ -81,8 +124,8 @@ flat out vec2 powersGSOutput;
 void main()
 {
   int i = 0;
-  vec3 center = placeVC + centerVCVSOutput[0];
-  float radius = radiusVCVSOutput[0];
+  vec3 center = placeVC + vec3(centerVCVSOutput[0]);
+  float radius = float(radiusVCVSOutput[0]);
   if (!(radius > 0.0))
   {
     return;
@@ -125,7 +168,7 @@ void main()
   for (int k = 0; k < 4; ++k)
   {
     vec2 at = vec2(k % 2 == 0 ? low.x : high.x, k / 2 == 0 ? low.y : high.y);
-    radiusVCGSOutput = radius;
+    radiusVCGSOutput = radiusVCVSOutput[0];
     gl_Position = vec4(at * pictureVC.xy + pictureVC.zw, 0.0, 1.0);
     centerVCGSOutput = centerVCVSOutput[0];
 #ifdef HAVE_SHAPES

@@ -5,18 +5,50 @@
 // The part of vtkGranularGrainFragments.h that only shapes other than spheres need.
 namespace vtkGranularGrainShaders
 {
-constexpr const char* Superquadrics = R"(#ifdef HAVE_SHAPES
-flat in mat3 turnVCVSOutput;
-flat in vec3 axesVCVSOutput;
+constexpr const char* ShapeInputs = R"(
+flat in real3x3 turnVCVSOutput;
+flat in real3 axesVCVSOutput;
 flat in vec2 powersVSOutput;
+)";
 
-// x^n for x, n >= 0 by products and square roots, which graphics hardware rounds well, for n below 4096
+// The kinds of number that the functions below are made for: both where there are doubles.
+constexpr const char* InFloats = R"(
+#define number float
+#define number2 vec2
+#define number3 vec3
+)";
+
+constexpr const char* InDoubles = R"(
+#undef number
+#undef number2
+#undef number3
+#define number double
+#define number2 dvec2
+#define number3 dvec3
+)";
+
+// A step in doubles comes after the search in floats, which need not be exact then.
+constexpr const char* RoughPower = R"(
+const float enough = 1e-5;
+
 float power(float x, float n)
 {
-  float result = 1.0;
+  return pow(x, n);
+}
+)";
+
+constexpr const char* FloatsAlone = R"(
+const float enough = 1e-7;
+)";
+
+constexpr const char* Power = R"(
+// x^n for x, n >= 0 by products and square roots, which graphics hardware rounds well, for n below 4096
+number power(number x, float n)
+{
+  number result = 1.0;
   float whole = floor(n);
   float part = n - whole;
-  float base = x;
+  number base = x;
   for (int k = 0; k < 12 && whole > 0.0; ++k)
   {
     float half_whole = floor(0.5 * whole);
@@ -40,52 +72,62 @@ float power(float x, float n)
   }
   return result;
 }
+)";
 
+constexpr const char* Superquadrics = R"(
 // (|x|^n2 + |y|^n2)^(n1/n2) + |z|^n1, which is 1 on the surface, and its gradient by n1. x and y are taken in parts of the larger one:
 // near the axis of z their powers would be less than floats hold, but a root of them is not.
-float superquadric(vec3 p, vec2 n, out vec3 gradient)
+number superquadric(number3 p, vec2 n, out number3 gradient)
 {
-  vec3 a = abs(p);
-  float most = n.x == n.y ? 1.0 : max(a.x, a.y);
-  vec2 part = most > 0.0 ? a.xy / most : vec2(0.0);
-  vec3 b = vec3(power(part.x, n.y - 1.0), power(part.y, n.y - 1.0), power(a.z, n.x - 1.0));
-  float inner = part.x * b.x + part.y * b.y;
-  float outer = 1.0;
+  number3 a = abs(p);
+  number most = n.x == n.y ? number(1.0) : max(a.x, a.y);
+  number2 part = most > 0.0 ? a.xy / most : number2(0.0);
+  number3 b = number3(power(part.x, n.y - 1.0), power(part.y, n.y - 1.0), power(a.z, n.x - 1.0));
+  number inner = part.x * b.x + part.y * b.y;
+  number outer = 1.0;
   if (n.x != n.y && most > 0.0)
   {
-    float mosts = power(most, n.x - 1.0);
+    number mosts = power(most, n.x - 1.0);
     outer = power(inner, n.x / n.y) / inner * mosts;
     inner *= outer * most;
   }
-  gradient = sign(p) * b * vec3(outer, outer, 1.0);
+  gradient = sign(p) * b * number3(outer, outer, 1.0);
   return inner + a.z * b.z;
 }
 
-// Moves t to where the ray o + t d meets the surface, along the ray (side 1) or against it (-1), from a place outside. Returns false
-// if it does not. The particle is the unit ball of a norm, which is convex along the ray, so Newton's method passes nothing.
-bool meets(vec3 o, vec3 d, vec2 n, float side, inout float t, out vec3 gradient)
+// Returns how far a place on a ray is past the surface, in parts of the direction, by Newton's method for the norm whose unit ball is the
+// particle. It is convex along the ray, so that steps from outside pass nothing.
+number step_of(number3 place, number3 d, vec2 n, out number3 gradient)
 {
-  float enough = 1e-7 / length(d);
+  number value = superquadric(place, n, gradient);
+  number more = value - 1.0;
+  number part = abs(more) < 0.02 ? more * (1.0 - 0.5 * (1.0 + 1.0 / n.x) * more) : n.x * (1.0 - pow(float(value), -1.0 / n.x));
+  return part * value / (n.x * dot(gradient, d));
+}
+)";
+
+// Moves t to where the ray o + t d meets the surface, along the ray (side 1) or against it (-1), from a place outside. Returns false
+// if it does not.
+constexpr const char* Meets = R"(
+bool meets(vec3 o, vec3 d, vec2 n, float side, inout float t)
+{
+  vec3 gradient;
+  float least = enough / length(d);
   for (int k = 0; k < 48; ++k)
   {
-    float value = superquadric(o + t * d, n, gradient);
-    float slope = n.x * dot(gradient, d);
-    if (slope * side >= 0.0)
+    float move = step_of(o + t * d, d, n, gradient);
+    if (dot(gradient, d) * side >= 0.0)
     {
       return false;
     }
-    float more = value - 1.0;
-    float part = abs(more) < 0.02 ? more * (1.0 - 0.5 * (1.0 + 1.0 / n.x) * more) : n.x * (1.0 - pow(value, -1.0 / n.x));
-    float move = part * value / slope;
     t -= move;
-    if (abs(move) <= enough)
+    if (abs(move) <= least)
     {
       break;
     }
   }
   return true;
 }
-#endif
 )";
 }
 

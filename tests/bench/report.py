@@ -93,7 +93,7 @@ def main():
                 blocks[block.stem] = block.read_text(encoding="utf-8")
         pictures = [Path(shutil.copy(picture, options.report)) for picture in sorted(out.glob("*.png"))]
     if not blocks:
-        sys.exit("nothing was measured")
+        sys.exit(f"nothing was measured; this build or machine has no means for: {', '.join(left_out)}")
     blocks["machine"] = f"{machine()}, load {load:.1f} at the start, {time.strftime('%Y-%m-%d')}.\n"
     lines = ["<!-- SPDX-License-Identifier: BSD-3-Clause -->", "# Speed and error", ""]
     lines += ["**A quick run: small files, one round. Its times mean nothing.**", ""] if options.quick else []

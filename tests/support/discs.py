@@ -2,9 +2,9 @@
 """Pictures of spheres, and what arithmetic in doubles says of them: in each pixel the nearest surface."""
 import numpy
 import ray_caster
-from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, SaveScreenshot
+from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, Render, SaveScreenshot
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -40,6 +40,25 @@ def black_view(pixels):
     view.OrientationAxesVisibility = 0
     view.UseFXAA = 0  # it would mix neighbours
     return view
+
+
+def show_white(source, view):
+    """Shows a source as it is seen without light."""
+    import vtkgranular as vg
+
+    display = vg.show(source, view)
+    display.Ambient, display.Diffuse = 1, 0
+    display.AmbientColor = display.DiffuseColor = [1, 1, 1]
+    return display
+
+
+def seen(view):
+    """The camera, and the depths of the pixels, of what is shown: before ParaView draws axes, which clear the depth."""
+    depths, renderer, (width, height) = vtkFloatArray(), view.GetRenderer(), view.ViewSize
+    watch = renderer.AddObserver("EndEvent", lambda *_: view.GetRenderWindow().GetZbufferData(0, 0, width - 1, height - 1, depths))
+    Render(view)
+    renderer.RemoveObserver(watch)
+    return ray_caster.Camera(view.GetActiveCamera(), width, height), vtk_to_numpy(depths).reshape(height, width).astype(float)
 
 
 def color_by_id(display, view, last):

@@ -1,15 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Particles are seen as rays in double precision see them: depth, side and number of each pixel, of spheres, ellipsoids and
-superquadrics, near and far, from outside and inside; other surfaces cut them where they meet; hidden ones change no pixel."""
-import sys
-
+"""Surfaces of particles at the pole of a superquadric, cut by others where they meet, and in a heap, where hidden ones change no pixel."""
 import numpy
-import ray_caster
 import vtkgranular as vg
-from discs import ROUNDED, black_view, made, picture
+from discs import ROUNDED, black_view, made, picture, seen, show_white
 from paraview.simple import *
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkFloatArray
 from vtkmodules.vtkCommonDataModel import vtkPlane
 
 PIXELS = 160
@@ -18,95 +12,13 @@ random = numpy.random.default_rng(3)
 view = black_view(PIXELS)
 view.RemoteRenderThreshold = 1e9
 
-
-def shown(source):
-    display = vg.show(source, view)
-    display.Ambient, display.Diffuse = 1, 0
-    display.AmbientColor = display.DiffuseColor = [1, 1, 1]
-    return display
-
-
-def seen():
-    """The camera, and the depths of the pixels, of what is shown: before ParaView draws axes, which clear the depth."""
-    depths, renderer = vtkFloatArray(), view.GetRenderer()
-    watch = renderer.AddObserver("EndEvent", lambda *_: view.GetRenderWindow().GetZbufferData(0, 0, PIXELS - 1, PIXELS - 1, depths))
-    Render(view)
-    renderer.RemoveObserver(watch)
-    return ray_caster.Camera(view.GetActiveCamera(), PIXELS, PIXELS), vtk_to_numpy(depths).reshape(PIXELS, PIXELS).astype(float)
-
-
-def look(centre):
-    """A camera somewhere, sometimes among the particles."""
-    away = random.normal(size=3)
-    view.CameraFocalPoint, view.CameraPosition = list(centre), list(centre + away / numpy.linalg.norm(away) * 10**random.uniform(0, 1))
-    view.CameraViewUp = list(random.normal(size=3))
-    view.CameraParallelProjection = int(random.integers(2))
-    view.CameraParallelScale, view.CameraViewAngle = random.uniform(0.5, 3), random.uniform(15, 60)
-
-
-def within(pixels):
-    """The pixels that have eight neighbours of their kind."""
-    found = numpy.zeros_like(pixels)
-    found[1:-1, 1:-1] = numpy.logical_and.reduce([pixels[1 + j:PIXELS - 1 + j, 1 + i:PIXELS - 1 + i] for j in (-1, 0, 1) for i in (-1, 0, 1)])
-    return found
-
-
-def check_depths(kind, scenes, most):
-    """A depth buffer has the numbers from 0 to 2^24 - 1. Few are off by one more than one. Close to the camera such a unit can be less than
-    the last place of a float that holds the distance of a particle and its size; there the depth is right to 2^-20 of the particles'
-    extent. Steep surfaces are left out: a shift across the line of sight makes more of a depth there."""
-    seen_pixels, wrong, units, parts, source = 0, 0, [], [], None
-    for _ in range(scenes):
-        count = int(random.integers(1, 30))
-        centre = random.choice([0, 0, 1e3, 2**20]) * numpy.array([1, -1, 0.5])
-        points, radius = random.uniform(-1, 1, (count, 3)) + centre, 10**random.uniform(-1.2, -0.2, count)
-        axes, arrays, powers, turns = numpy.repeat(radius[:, None], 3, axis=1), {}, None, None
-        if kind != "spheres":
-            axes, turns = radius[:, None] * 5**random.uniform(-0.5, 0.5, (count, 3)), random.normal(size=(count, 4))
-            arrays = {"shape": axes, "quat": turns}
-        if kind == "superquadrics":
-            powers = random.choice([2, 2.5, 4, 8, 20], (count, 2)).astype(float)
-            arrays.update(blockiness1=powers[:, 0], blockiness2=powers[:, 1])
-        source, new = made(points, source, radius=radius, **arrays), source is None
-        if new:
-            shown(source)
-        Render(view)  # or the clipping range is that of the scene before
-        look(centre)
-        camera, depths = seen()
-        truth, normals, numbers = ray_caster.cast(camera, points, axes, turns, powers)
-        drawn, there = depths < 1, numbers >= 0
-        wrong += (drawn != there).sum()
-        assert not (within(there) & ~drawn).any() and not (within(~there) & drawn).any(), (kind, "a hole, or a speck")
-        sight = [0, 0, 1] if camera.parallel else -camera.rays()[1]
-        steep = abs((normals * sight).sum(-1)) / numpy.linalg.norm(sight, axis=-1) < 0.5
-        both = there & drawn & ~steep
-        seen_pixels += both.sum()
-        off = abs(numpy.round(depths * TOP) - numpy.round(truth * TOP))[both]
-        near, far = camera.near, camera.far
-        away = (near + truth * (far - near) if camera.parallel else near * far / (far - truth * (far - near)))[both]
-        slope = 1 / (far - near) if camera.parallel else near * far / ((far - near) * away**2)
-        distances = numpy.linalg.norm(points - (points[0] if camera.parallel else camera.position), axis=1) + axes.max(axis=1)
-        units.append(off[distances[numbers[both]] * slope < 1])
-        parts.append(numpy.clip(off - 1, 0, None) / (TOP * slope * numpy.sqrt(12)))
-    Delete(source)
-    units, parts = numpy.concatenate(units), numpy.concatenate(parts)
-    print(f"{kind}: {seen_pixels} pixels, {wrong} on outlines wrong; depth off by at most {units.max():.0f} units, "
-          f"{100 * (units > 1).mean():.2f} % by more than 1, {100 * (units > 2).mean():.4f} % by more than 2; beyond 1 by at most 2^{numpy.log2(parts.max()):.1f} of the extent")
-    assert seen_pixels > 5000 and wrong <= 1e-4 * seen_pixels, (kind, wrong)
-    assert units.max() <= most and (units > 1).mean() < 0.005 and (units > 2).mean() < 2e-4 and parts.max() < 2**-20
-
-
-more = int(sys.argv[1]) if len(sys.argv) > 1 else 1  # 15: a thousand scenes, in about ten minutes
-check_depths("spheres", 30 * more, 2)
-check_depths("ellipsoids", 30 * more, 8)
-check_depths("superquadrics", 6 * more, 8)
-
 # ---- the pole of a superquadric, where powers of x and y are less than floats hold -------------------------------------
 pole = made([[0, 0, 0]], radius=[1.], shape=[[1., 1, 1]], quat=[[1., 0, 0, 0]], blockiness1=[2.], blockiness2=[20.])
-shown(pole)
+show_white(pole, view)
+Render(view)
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 5], [0, 0, 0], [0, 1, 0]
 view.CameraParallelProjection, view.CameraParallelScale = 1, 0.05
-camera, depths = seen()
+camera, depths = seen(view)
 x = ((numpy.arange(PIXELS) + 0.5) / PIXELS * 2 - 1) * 0.05
 height = numpy.sqrt(1 - (x[None, :]**20 + x[:, None]**20)**0.1)
 units = abs(numpy.round(depths * TOP) - numpy.round(camera.depth(height - 5) * TOP))
@@ -119,7 +31,7 @@ view.CameraParallelProjection, view.CameraParallelScale = 1, 1.5
 x = ((numpy.arange(PIXELS) + 0.5) / PIXELS * 2 - 1) * 1.5
 x, y = x[None, :], x[:, None]
 balls = made([[0, 0, 0], [0, 0, 0.5], [0, 1.1, 0]], radius=[1, 0.3, 0.3])
-display = shown(balls)
+display = show_white(balls, view)
 line = Line(Point1=[-1.4, 0, 0.6], Point2=[1.4, 0, 0.6])
 tube = Tube(Input=line, Radius=0.02, NumberofSides=200)
 plane = Plane(Origin=[-1.4, -1.4, 0.3], Point1=[1.4, -1.4, 0.3], Point2=[-1.4, 1.4, 0.3])
@@ -176,7 +88,7 @@ for parallel in (0, 1):
             display.LookupTable = colors
             display.SetScalarBarVisibility(view, False)
         pictures.append(picture(view, f"heap_{len(sources)}"))
-        depths.append(seen()[1])
+        depths.append(seen(view)[1])
         for display in displays:
             display.Visibility = 0
     assert pictures[0].any(axis=2).mean() > 0.3

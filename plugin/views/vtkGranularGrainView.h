@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkGranularGrainView_h
+#define vtkGranularGrainView_h
+
+#include "vtkGranularHiddenGrains.h"
+#include "vtkNew.h"
+
+#include <array>
+
+class vtkActor;
+class vtkMatrix4x4;
+class vtkOpenGLCamera;
+class vtkRenderer;
+class vtkShaderProgram;
+
+/**
+ * The way from the coordinates of an actor's data, counted from a place, to the picture. Nothing of it is a float before it is a number of
+ * the picture or of the distance from the place.
+ */
+class vtkGranularGrainView
+{
+public:
+  vtkGranularGrainView(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& place);
+
+  bool IsParallel() const;
+
+  /// The place is well in front of the near plane.
+  bool IsInFront() const;
+
+  /// Returns the matrix from the data to the camera, row by row, without the place.
+  std::array<double, 9> Turn() const;
+
+  vtkGranularHiddenGrains::View ForHidden() const;
+
+  /// Sets what the programs of vtkGranularGrainShaders.h need; their coordinates are those of the camera, or of the data.
+  void Set(vtkShaderProgram* program, vtkRenderer* renderer, bool ofCamera) const;
+
+  vtkOpenGLCamera* GetCamera() const { return this->Camera; }
+
+private:
+  double Element(int row, int column) const;
+  double Zoom(int axis) const;
+  double Middle(int axis) const;
+  double Place(int axis) const;
+  double Tangent(int axis) const;
+  std::array<double, 2> DepthFrom(double pictures) const;
+
+  vtkOpenGLCamera* Camera;
+  vtkMatrix4x4* CameraToPicture;
+  vtkNew<vtkMatrix4x4> ToCamera;
+  double Scale; // of lengths
+  float Near;   // z of the near plane
+};
+
+#endif
