@@ -97,48 +97,6 @@ vtkGranularGrainMapper::Place vtkGranularGrainMapper::InData(const Place& place,
   return { moved[0], moved[1], moved[2] };
 }
 
-// Returns the coordinates of the points, all or those that are seen, and writes what they lack, four a point, if that is asked for.
-vtkSmartPointer<vtkFloatArray> vtkGranularGrainMapper::Count(const Counting& counting,
-  vtkDataArray* points, const vtkGranularHiddenGrains::Seen* seen, unsigned char* lows)
-{
-  const vtkIdType count =
-    seen ? static_cast<vtkIdType>(seen->Grains.size()) : points->GetNumberOfTuples();
-  auto made = MakeArray<vtkFloatArray>(count, 3);
-  float* to = made->GetPointer(0);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double at[3];
-    points->GetTuple(seen ? seen->Grains[static_cast<std::size_t>(i)] : i, at);
-    std::transform(at, at + 3, counting.From.begin(), at, std::minus<>());
-    for (int k = 0; k < 3; ++k)
-    {
-      const double* axis = counting.Axes.data() + 3 * k;
-      unsigned char low;
-      Split(
-        axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2], *to++, lows ? lows[4 * i + k] : low);
-    }
-  }
-  return made;
-}
-
-// Close to a camera in perspective the units of a depth buffer are parts of the distance, so there coordinates are those of the camera, in
-// doubles until they are floats; else they are counted from a given place in the middle of the particles, and serve all pictures.
-vtkGranularGrainMapper::Counting vtkGranularGrainMapper::ChooseCounting(
-  vtkRenderer* renderer, vtkActor* actor, const Place& middle)
-{
-  const vtkGranularGrainView view(renderer, actor, middle);
-  vtkCamera* camera = view.GetCamera();
-  const double* range = camera->GetClippingRange();
-  Counting chosen{ middle };
-  if (!view.IsParallel() && !(view.IsInFront() && 3.0 * range[0] > range[1]))
-  {
-    camera->GetPosition(chosen.From.data());
-    chosen.From = InData(chosen.From, actor);
-    chosen.Axes = view.Turn();
-  }
-  return chosen;
-}
-
 void vtkGranularGrainMapper::Draw(
   vtkRenderer* renderer, vtkActor* actor, vtkGranularGrainBlocks* owner, const Place& from)
 {
@@ -163,10 +121,7 @@ void vtkGranularGrainMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* ac
     // off where points are selected; here they are surfaces, of which the nearest counts
     static_cast<vtkOpenGLRenderer*>(renderer)->GetState()->vtkglDepthMask(1);
   }
-  const Counting counting = ChooseCounting(renderer, actor, this->From);
-  const bool isNew = this->Counted != counting;
-  this->Counted = counting;
-  if (!this->FindSeen(renderer, actor) && (!this->HasAll || isNew))
+  if (!this->FindSeen(renderer, actor) && !this->HasAll)
   {
     this->Upload(renderer, nullptr);
   }
@@ -232,8 +187,8 @@ void vtkGranularGrainMapper::ReplaceShaderClip(
 void vtkGranularGrainMapper::SetCameraShaderParameters(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
-  const vtkGranularGrainView view(renderer, actor, this->Counted.From);
-  view.Set(helper.Program, renderer, this->Counted.Axes != Counting().Axes);
+  const vtkGranularGrainView view(renderer, actor, this->From);
+  view.Set(helper.Program, renderer);
   this->SetClips(helper.Program, view.GetCamera()->GetModelViewTransformMatrix());
 }
 
@@ -278,7 +233,7 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   vtkPolyData* data = this->CurrentInput;
   const vtkIdType count = data->GetNumberOfPoints();
   this->Values.clear();
-  this->Values["vertexMC"] = Count({ this->From }, data->GetPoints()->GetData(), nullptr, nullptr);
+  auto points = MakeArray<vtkFloatArray>(count, 3);
   auto radii = MakeArray<vtkFloatArray>(count, 1);
   auto lows = MakeArray<vtkUnsignedCharArray>(count, 4);
   std::vector<double> sizes(static_cast<std::size_t>(count));
@@ -292,9 +247,14 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
     double& size = sizes[static_cast<std::size_t>(i)];
     size = std::isfinite(radius) ? radius : 0.0;
     Split(size, *radii->GetPointer(i), *lows->GetPointer(4 * i + 3));
+    double place[3];
+    data->GetPoint(i, place);
+    std::transform(place, place + 3, this->From.begin(), place, std::minus<>());
+    Split(place, 3, i, points, lows);
   }
   this->Inner = radii;
   this->BuildShapes(sizes, radii);
+  this->Values["vertexMC"] = points;
   this->Values["radiusMC"] = radii;
   this->Values["lowMC"] = lows;
   this->BuildColors(actor);
@@ -307,9 +267,8 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
 void vtkGranularGrainMapper::Upload(
   vtkRenderer* renderer, const vtkGranularHiddenGrains::Seen* seen)
 {
-  vtkDataArray* points = this->CurrentInput->GetPoints()->GetData();
-  for (const char* name : { "lowMC", "radiusMC", "scalarColor", "axesMC", "axesLowMC", "turnMC",
-         "turnLowMC", "powersMC" })
+  for (const char* name : { "vertexMC", "lowMC", "radiusMC", "scalarColor", "axesMC", "axesLowMC",
+         "turnMC", "turnLowMC", "powersMC" })
   {
     vtkSmartPointer<vtkDataArray> values = this->Values[name];
     if (values && seen)
@@ -324,13 +283,6 @@ void vtkGranularGrainMapper::Upload(
       {
         to = std::copy_n(from + size * i, size, to);
       }
-    }
-    if (name == std::string("lowMC"))
-    {
-      auto* lows = vtkUnsignedCharArray::SafeDownCast(values)->GetPointer(0);
-      this->VBOs->CacheDataArray(
-        "vertexMC", Count(this->Counted, points, seen, lows), renderer, VTK_FLOAT);
-      values->Modified();
     }
     this->VBOs->CacheDataArray(name, values, renderer, values ? values->GetDataType() : VTK_FLOAT);
   }

@@ -89,18 +89,6 @@ private:
   vtkGranularGrainMapper(const vtkGranularGrainMapper&) = delete;
   void operator=(const vtkGranularGrainMapper&) = delete;
 
-  // Coordinates of the buffers are counted from a place, along axes (rows).
-  struct Counting
-  {
-    bool operator==(const Counting&) const = default;
-
-    Place From{};
-    std::array<double, 9> Axes{ 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-  };
-
-  static Counting ChooseCounting(vtkRenderer* renderer, vtkActor* actor, const Place& middle);
-  static vtkSmartPointer<vtkFloatArray> Count(const Counting& counting, vtkDataArray* points,
-    const vtkGranularHiddenGrains::Seen* seen, unsigned char* lows);
   void SetClips(vtkShaderProgram* program, vtkMatrix4x4* worldToCamera);
   void BuildShapes(const std::vector<double>& given, vtkFloatArray* radii);
   void BuildColors(vtkActor* actor);
@@ -113,7 +101,6 @@ private:
   vtkGranularGrainBlocks* Owner = nullptr; // while it draws
   Place From{};                            // of the next picture
   Place Built{};                           // of the values
-  Counting Counted;                        // of the buffers
   bool HaveShapes = false;
   std::map<std::string, vtkSmartPointer<vtkDataArray>>
     Values; // of each particle, by the names that the programs have for them

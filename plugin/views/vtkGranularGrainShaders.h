@@ -3,9 +3,9 @@
 #define vtkGranularGrainShaders_h
 
 // Programs of the graphics hardware for vtkGranularGrainMapper. VTK replaces what begins with //VTK:: by colours, lights and selection.
-// VC are the coordinates of the camera, which looks along -z; MC those of the buffers: counted from a place in view along the data's axes, or VC. Where HAVE_SHAPES is
-// defined, particles are superquadrics; else spheres. A real is a double where the hardware has them: a float holds too little of the
-// depth near a camera. Numbers come as floats and what these lack.
+// VC are the coordinates of the camera, which looks along -z; MC those of the buffers: counted from a place in view, along the data's axes.
+// Where HAVE_SHAPES is defined, particles are superquadrics; else spheres. A real is a double where the hardware has them: a float holds
+// too little of the depth near a camera. Numbers come as floats and what these lack.
 namespace vtkGranularGrainShaders
 {
 constexpr const char* Extensions = R"(//VTK::System::Dec
@@ -34,15 +34,13 @@ in vec4 vertexMC;
 in float radiusMC; // of a sphere around the particle
 in vec4 lowMC; // what x y z and the radius lack
 in vec4 partMC; // of the square around the particle that may be seen: low and high x and y, as parts of it
-uniform mat3 bufferVC; // from MC to VC
-uniform mat3 bufferVCLow;
+uniform mat3 dataVC; // from MC to VC
+uniform mat3 dataVCLow;
 uniform vec2 scaleVC;
 out real3 centerVCVSOutput; // from the place
 out real radiusVCVSOutput;
 out vec4 partVSOutput;
 #ifdef HAVE_SHAPES
-uniform mat3 dataVC;
-uniform mat3 dataVCLow;
 in vec3 axesMC;
 in vec4 axesLowMC;
 in vec4 turnMC; // w x y z
@@ -77,7 +75,8 @@ void main()
   real scale = real(scaleVC.x) + real(scaleVC.y);
   radiusVCVSOutput = whole(radiusMC, lowMC.w) * scale;
   partVSOutput = partMC;
-  centerVCVSOutput = (real3x3(bufferVC) + real3x3(bufferVCLow)) * whole3(vertexMC.xyz, lowMC.xyz);
+  real3x3 toCamera = real3x3(dataVC) + real3x3(dataVCLow);
+  centerVCVSOutput = toCamera * whole3(vertexMC.xyz, lowMC.xyz);
   gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef HAVE_SHAPES
   real w = whole(turnMC.x, turnLowMC.x);
@@ -86,7 +85,7 @@ void main()
     1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y + w * q.z), 2.0 * (q.x * q.z - w * q.y),
     2.0 * (q.x * q.y - w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z + w * q.x),
     2.0 * (q.x * q.z + w * q.y), 2.0 * (q.y * q.z - w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
-  turnVCVSOutput = (real3x3(dataVC) + real3x3(dataVCLow)) * turn / scale;
+  turnVCVSOutput = toCamera * turn / scale;
   axesVCVSOutput = whole3(axesMC, axesLowMC.xyz) * scale;
   powersVSOutput = powersMC;
 #endif

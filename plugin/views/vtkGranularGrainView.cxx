@@ -75,21 +75,6 @@ bool vtkGranularGrainView::IsParallel() const
   return this->Camera->GetParallelProjection() != 0;
 }
 
-bool vtkGranularGrainView::IsInFront() const
-{
-  return this->Place(2) < 0.5 * this->Near;
-}
-
-std::array<double, 9> vtkGranularGrainView::Turn() const
-{
-  std::array<double, 9> turn;
-  for (int i = 0; i < 9; ++i)
-  {
-    turn[static_cast<std::size_t>(i)] = this->ToCamera->GetElement(i / 3, i % 3);
-  }
-  return turn;
-}
-
 // OpenGL's matrices are applied to rows.
 double vtkGranularGrainView::Element(int row, int column) const
 {
@@ -112,14 +97,14 @@ double vtkGranularGrainView::Place(int axis) const
   return this->ToCamera->GetElement(axis, 3);
 }
 
-// Returns where the line from the camera to the place meets z = -1; 0 if it is the camera.
+// Returns where the line from the camera to the place meets z = -1; 0 if it is not well in front of the near plane.
 double vtkGranularGrainView::Tangent(int axis) const
 {
   if (this->IsParallel())
   {
     return this->Place(axis);
   }
-  return this->IsInFront() ? -this->Place(axis) / this->Place(2) : 0.0;
+  return this->Place(2) < 0.5 * this->Near ? -this->Place(axis) / this->Place(2) : 0.0;
 }
 
 // The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from where the picture's
@@ -155,15 +140,14 @@ vtkGranularHiddenGrains::View vtkGranularGrainView::ForHidden() const
   return made;
 }
 
-void vtkGranularGrainView::Set(
-  vtkShaderProgram* program, vtkRenderer* renderer, bool ofCamera) const
+void vtkGranularGrainView::Set(vtkShaderProgram* program, vtkRenderer* renderer) const
 {
-  const std::array<double, 9> turn = this->Turn(); // which OpenGL takes column by column
-  const std::array<double, 9> columns = { turn[0], turn[3], turn[6], turn[1], turn[4], turn[7],
-    turn[2], turn[5], turn[8] };
-  SetNumbers(program, "dataVC", "dataVCLow", columns);
-  SetNumbers(program, "bufferVC", "bufferVCLow",
-    ofCamera ? std::array<double, 9>{ 1, 0, 0, 0, 1, 0, 0, 0, 1 } : columns);
+  std::array<double, 9> toCamera; // column by column
+  for (int i = 0; i < 9; ++i)
+  {
+    toCamera[static_cast<std::size_t>(i)] = this->ToCamera->GetElement(i % 3, i / 3);
+  }
+  SetNumbers(program, "dataVC", "dataVCLow", toCamera);
   const auto scale = static_cast<float>(this->Scale);
   const float scales[2] = { scale, static_cast<float>(this->Scale - scale) };
   program->SetUniform2f("scaleVC", scales);

@@ -22,22 +22,15 @@ class vtkGranularGrainView
 public:
   vtkGranularGrainView(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& place);
 
-  bool IsParallel() const;
-
-  /// The place is well in front of the near plane.
-  bool IsInFront() const;
-
-  /// Returns the matrix from the data to the camera, row by row, without the place.
-  std::array<double, 9> Turn() const;
-
   vtkGranularHiddenGrains::View ForHidden() const;
 
-  /// Sets what the programs of vtkGranularGrainShaders.h need; their coordinates are those of the camera, or of the data.
-  void Set(vtkShaderProgram* program, vtkRenderer* renderer, bool ofCamera) const;
+  /// Sets what the programs of vtkGranularGrainShaders.h need.
+  void Set(vtkShaderProgram* program, vtkRenderer* renderer) const;
 
   vtkOpenGLCamera* GetCamera() const { return this->Camera; }
 
 private:
+  bool IsParallel() const;
   double Element(int row, int column) const;
   double Zoom(int axis) const;
   double Middle(int axis) const;

@@ -4,7 +4,7 @@ import numpy
 import ray_caster
 from paraview.simple import ColorBy, CreateRenderView, GetColorTransferFunction, Render, SaveScreenshot
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints
+from vtkmodules.vtkCommonCore import vtkFloatArray, vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkRenderingCore import vtkCamera
@@ -42,23 +42,29 @@ def black_view(pixels):
     return view
 
 
-def show_white(source, view):
-    """Shows a source as it is seen without light."""
+def show_white(source, view, lit=False):
+    """Shows a source as it is seen without light, or by that of the camera alone."""
     import vtkgranular as vg
 
     display = vg.show(source, view)
-    display.Ambient, display.Diffuse = 1, 0
+    display.Ambient, display.Diffuse, display.Specular = (0, 1, 0) if lit else (1, 0, 0)
     display.AmbientColor = display.DiffuseColor = [1, 1, 1]
     return display
 
 
 def seen(view):
-    """The camera, and the depths of the pixels, of what is shown: before ParaView draws axes, which clear the depth."""
-    depths, renderer, (width, height) = vtkFloatArray(), view.GetRenderer(), view.ViewSize
-    watch = renderer.AddObserver("EndEvent", lambda *_: view.GetRenderWindow().GetZbufferData(0, 0, width - 1, height - 1, depths))
+    """The camera, and the depths and the red of the pixels, of what is shown: before ParaView draws axes, which clear the depth."""
+    depths, colors, renderer, (width, height) = vtkFloatArray(), vtkUnsignedCharArray(), view.GetRenderer(), view.ViewSize
+
+    def take(*_):
+        view.GetRenderWindow().GetZbufferData(0, 0, width - 1, height - 1, depths)
+        view.GetRenderWindow().GetPixelData(0, 0, width - 1, height - 1, 0, colors, 0)
+
+    watch = renderer.AddObserver("EndEvent", take)
     Render(view)
     renderer.RemoveObserver(watch)
-    return ray_caster.Camera(view.GetActiveCamera(), width, height), vtk_to_numpy(depths).reshape(height, width).astype(float)
+    return (ray_caster.Camera(view.GetActiveCamera(), width, height), vtk_to_numpy(depths).reshape(height, width).astype(float),
+            vtk_to_numpy(colors).reshape(height, width, 3)[..., 0].astype(float))
 
 
 def color_by_id(display, view, last):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Particles are seen as rays in double precision see them: depth, side and number of each pixel, of spheres, ellipsoids and
-superquadrics, near and far, from outside and inside."""
+"""Particles are seen as rays in double precision see them: depth and normal of each pixel, of spheres, ellipsoids and superquadrics, near
+and far, from outside and inside."""
 import os
 import sys
 
@@ -17,6 +17,8 @@ if FLOATS:
 random = numpy.random.default_rng(3)
 view = black_view(PIXELS)
 view.RemoteRenderThreshold = 1e9
+view.UseLight = 0
+AddLight(view=view).Coords = "Camera"  # the red of a pixel is the third component of the normal
 
 
 def look(centre):
@@ -38,7 +40,7 @@ def within(pixels):
 def check_depths(kind, scenes, most):
     """A depth buffer has the numbers from 0 to 2^24 - 1. Surfaces steeper than 85 degrees are left out: there a shift across the line of sight
     makes much of a depth. Without doubles, a depth is right to 2^-20 of the particles' extent, where they are less steep than 60."""
-    seen_pixels, wrong, units, parts, source = 0, 0, [], [], None
+    seen_pixels, wrong, tilted, units, parts, source = 0, 0, 0, [], [], None
     for _ in range(scenes):
         count = int(random.integers(1, 30))
         centre = random.choice([0, 0, 1e3, 2**20]) * numpy.array([1, -1, 0.5])
@@ -52,10 +54,10 @@ def check_depths(kind, scenes, most):
             arrays.update(blockiness1=powers[:, 0], blockiness2=powers[:, 1])
         source, new = made(points, source, radius=radius, **arrays), source is None
         if new:
-            show_white(source, view)
+            show_white(source, view, lit=True)
         Render(view)  # or the clipping range is that of the scene before
         look(centre)
-        camera, depths = seen(view)
+        camera, depths, light = seen(view)
         truth, normals, numbers = ray_caster.cast(camera, points, axes, turns, powers)
         drawn, there = depths < 1, numbers >= 0
         wrong += (drawn != there).sum()
@@ -64,6 +66,7 @@ def check_depths(kind, scenes, most):
         cosine = abs((normals * sight).sum(-1)) / numpy.linalg.norm(sight, axis=-1)
         both = there & drawn & (cosine > (0.5 if FLOATS else 0.087))
         seen_pixels += both.sum()
+        tilted += (abs(light - 255 * numpy.clip(normals[..., 2], 0, 1))[both] > 0.51).sum()
         units.append(abs(numpy.round(depths * TOP) - numpy.round(truth * TOP))[both])
         near, far = camera.near, camera.far
         away = (near + truth * (far - near) if camera.parallel else near * far / (far - truth * (far - near)))[both]
@@ -71,9 +74,9 @@ def check_depths(kind, scenes, most):
         parts.append(numpy.clip(units[-1] - 1, 0, None) / (TOP * slope * numpy.sqrt(12)))
     Delete(source)
     units, part = numpy.concatenate(units), numpy.concatenate(parts).max()
-    print(f"{kind}: {seen_pixels} pixels, {wrong} on outlines wrong; depth off by at most {units.max():.0f} units, "
+    print(f"{kind}: {seen_pixels} pixels, {wrong} on outlines wrong, {tilted} with another normal; depth off by at most {units.max():.0f} units, "
           f"{100 * (units > 1).mean():.4f} % by more than 1; beyond 1 by at most {part:.1e} of the extent")
-    assert seen_pixels > 2000 and wrong <= 1e-4 * seen_pixels, (kind, wrong)
+    assert seen_pixels > 2000 and wrong <= 1e-4 * seen_pixels and tilted <= 2e-5 * seen_pixels, (kind, wrong, tilted)
     assert part < 2**-20 if FLOATS else units.max() <= most
 
 

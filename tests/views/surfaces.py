@@ -18,7 +18,7 @@ show_white(pole, view)
 Render(view)
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 5], [0, 0, 0], [0, 1, 0]
 view.CameraParallelProjection, view.CameraParallelScale = 1, 0.05
-camera, depths = seen(view)
+camera, depths, _ = seen(view)
 x = ((numpy.arange(PIXELS) + 0.5) / PIXELS * 2 - 1) * 0.05
 height = numpy.sqrt(1 - (x[None, :]**20 + x[:, None]**20)**0.1)
 units = abs(numpy.round(depths * TOP) - numpy.round(camera.depth(height - 5) * TOP))
