@@ -196,7 +196,7 @@ SPHERES = ("Grains", "Point Gaussian", "VTK's sphere mapper", "glyphs")
 # particles, superquadrics, ways, rounds, frames, zooms
 SCENES = {"quick": [(1000, False, SPHERES, 1, 1, (1,)), (1000, True, ("Grains", "glyphs"), 1, 1, (1,))],
           "full": [(10**6, False, SPHERES[:3], 3, 3), (10**5, False, SPHERES, 3, 3), (10**5, True, ("Grains", "glyphs"), 3, 3)],
-          "large": [(10**7, False, SPHERES[:3], 2, 2), (10**6, False, SPHERES, 1, 1)]}
+          "large": [(10**7, False, SPHERES[:3], 1, 2), (10**6, False, SPHERES, 1, 1)]}
 
 
 def study_of(study):
