@@ -13,6 +13,8 @@ uniform vec3 placeVC;
 uniform vec3 placeVCLow;
 uniform vec2 placeTangent; // x and y of VC where the line from the camera to the place meets z = -1
 uniform vec2 placeTangentLow;
+uniform vec2 placeBeside; // x and y of the place from that line: 0 where the place is in front of the camera
+uniform vec2 placeBesideLow;
 uniform vec2 placePixel; // where the picture shows the place: whole pixels, and parts of one
 uniform vec2 placePart;
 uniform vec2 placePartLow;
@@ -49,7 +51,7 @@ constexpr const char* FragmentSurface = R"(
   real radiusVC = radiusVCVSOutput;
   real2 placeAt = real2(placeTangent) + real2(placeTangentLow);
   real3 centerVC = real3(placeVC) + real3(placeVCLow) + centerVCVSOutput;
-  real2 pixelsVC = real2(gl_FragCoord.xy - placePixel) - real2(placePart) - real2(placePartLow);
+  real2 pixelsVC = real2(gl_FragCoord.xy) - real2(placePixel) - real2(placePart) - real2(placePartLow);
   real2 tangentVC = pixelsVC * (real2(pixelVC) + real2(pixelVCLow)); // from that of the place
   real3 offsetVC = real3(tangentVC - centerVCVSOutput.xy, 0.0);
   real3 rayVC = real3(0.0, 0.0, -radiusVC);
@@ -58,7 +60,8 @@ constexpr const char* FragmentSurface = R"(
     real awayVC = max(radiusVC, -centerVC.z);
     rayVC = real3((placeAt + tangentVC) * awayVC, -awayVC);
     offsetVC.z = -awayVC - centerVC.z;
-    offsetVC.xy = tangentVC * awayVC - placeAt * (centerVCVSOutput.z + offsetVC.z) - centerVCVSOutput.xy;
+    real2 besideVC = real2(placeBeside) + real2(placeBesideLow) + centerVCVSOutput.xy;
+    offsetVC.xy = tangentVC * awayVC - placeAt * (centerVCVSOutput.z + offsetVC.z) - besideVC;
   }
   real3 surfaceVC = real3(0.0);
   vec3 normalVCVSOutput = vec3(0.0, 0.0, 1.0);

@@ -253,7 +253,8 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
     Split(place, 3, i, points, lows);
   }
   this->Inner = radii;
-  this->BuildShapes(sizes, radii);
+  this->BuildShapes(
+    sizes, radii); // whose radii are those of spheres around, and need no more than floats
   this->Values["vertexMC"] = points;
   this->Values["radiusMC"] = radii;
   this->Values["lowMC"] = lows;

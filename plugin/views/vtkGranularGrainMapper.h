@@ -4,7 +4,7 @@
  * @brief   Draws the surfaces of particles by rays.
  *
  * Each pixel has the depth, the normal and the light of the surface that its ray meets. A particle is one vertex of the buffers, with
- * 16 bytes for its centre and its radius, and a square in the picture that covers all that can be seen of it.
+ * 20 bytes for its centre and its radius, and a square in the picture that covers all that can be seen of it.
  *
  * The inside of a particle is seen where the near plane or a clipping plane cuts it open. Of a translucent particle the side towards the
  * camera is seen.

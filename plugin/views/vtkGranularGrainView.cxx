@@ -10,8 +10,8 @@
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace
 {
@@ -179,6 +179,9 @@ void vtkGranularGrainView::Set(vtkShaderProgram* program, vtkRenderer* renderer)
     program, "placeVC", "placeVCLow", std::array{ this->Place(0), this->Place(1), this->Place(2) });
   SetNumbers(
     program, "placeTangent", "placeTangentLow", std::array{ this->Tangent(0), this->Tangent(1) });
+  const bool isAimed = this->Tangent(0) != 0.0 || this->Tangent(1) != 0.0; // at the place
+  SetNumbers(program, "placeBeside", "placeBesideLow",
+    isAimed ? std::array{ 0.0, 0.0 } : std::array{ this->Place(0), this->Place(1) });
   SetNumbers(program, "pixelVC", "pixelVCLow", pixelSizes);
   SetNumbers(program, "middleVC", "middleVCLow", this->DepthFrom(0.0));
   SetNumbers(program, "farVC", "farVCLow", this->DepthFrom(1.0));

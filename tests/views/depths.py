@@ -22,9 +22,13 @@ AddLight(view=view).Coords = "Camera"  # the red of a pixel is the third compone
 
 
 def look(centre):
-    """A camera somewhere, sometimes among the particles."""
+    """A camera somewhere, sometimes among the particles, which looks at their middle or elsewhere."""
     away = random.normal(size=3)
     view.CameraFocalPoint, view.CameraPosition = list(centre), list(centre + away / numpy.linalg.norm(away) * 10**random.uniform(0, 1))
+    if random.uniform() < 0.4:
+        away = numpy.array(view.CameraPosition) - centre
+        view.CameraPosition = list(centre + away / numpy.linalg.norm(away) * random.uniform(0, 0.8))
+        view.CameraFocalPoint = list(numpy.array(view.CameraPosition) + random.normal(size=3))
     view.CameraViewUp = list(random.normal(size=3))
     view.CameraParallelProjection = int(random.integers(2))
     view.CameraParallelScale, view.CameraViewAngle = random.uniform(0.5, 3), random.uniform(15, 60)
@@ -45,6 +49,8 @@ def check_depths(kind, scenes, most):
         count = int(random.integers(1, 30))
         centre = random.choice([0, 0, 1e3, 2**20]) * numpy.array([1, -1, 0.5])
         points, radius = random.uniform(-1, 1, (count, 3)) + centre, 10**random.uniform(-1.2, -0.2, count)
+        if random.uniform() < 0.2:
+            points[0] += random.normal(size=3) * 1e3  # what is in view is a small part
         axes, arrays, powers, turns = numpy.repeat(radius[:, None], 3, axis=1), {}, None, None
         if kind != "spheres":
             axes, turns = radius[:, None] * 5**random.uniform(-0.5, 0.5, (count, 3)), random.normal(size=(count, 4))
@@ -65,13 +71,15 @@ def check_depths(kind, scenes, most):
         sight = [0, 0, 1] if camera.parallel else -camera.rays()[1]
         cosine = abs((normals * sight).sum(-1)) / numpy.linalg.norm(sight, axis=-1)
         both = there & drawn & (cosine > (0.5 if FLOATS else 0.087))
+        if FLOATS:  # where two particles meet, one pixel in a million is of the other
+            both &= ~numpy.logical_or.reduce([numpy.roll(numbers, (i, j), (0, 1)) != numbers for i in (-1, 0, 1) for j in (-1, 0, 1)])
         seen_pixels += both.sum()
         tilted += (abs(light - 255 * numpy.clip(normals[..., 2], 0, 1))[both] > 0.51).sum()
         units.append(abs(numpy.round(depths * TOP) - numpy.round(truth * TOP))[both])
         near, far = camera.near, camera.far
         away = (near + truth * (far - near) if camera.parallel else near * far / (far - truth * (far - near)))[both]
         slope = 1 / (far - near) if camera.parallel else near * far / ((far - near) * away**2)
-        parts.append(numpy.clip(units[-1] - 1, 0, None) / (TOP * slope * numpy.sqrt(12)))
+        parts.append(numpy.clip(units[-1] - 1, 0, None) / (TOP * slope * max(numpy.sqrt(12), numpy.linalg.norm(numpy.ptp(points, axis=0)))))
     Delete(source)
     units, part = numpy.concatenate(units), numpy.concatenate(parts).max()
     print(f"{kind}: {seen_pixels} pixels, {wrong} on outlines wrong, {tilted} with another normal; depth off by at most {units.max():.0f} units, "
@@ -83,4 +91,4 @@ def check_depths(kind, scenes, most):
 more = int(sys.argv[1])  # 15: a thousand scenes, in about three minutes
 check_depths("spheres", 30 * more, 1)
 check_depths("ellipsoids", 30 * more, 1)
-check_depths("superquadrics", 6 * more, 2)
+check_depths("superquadrics", 6 * more, 1)
