@@ -50,7 +50,7 @@ double HalfHeight(vtkCamera* camera)
 // Returns a place near what the camera looks at, from which points are counted before they become floats.
 // It depends on the camera alone, so that all ranks find the same one. It lies on a lattice with a spacing of
 // 32 to 256 times half the height of the view. So it seldom changes, and a float holds points in view, up to
-// 2^8 such halves away, to 2^-16 of a half: some hundredths of a pixel.
+// 2^8 such halves away, to 2^-16 of a half: some hundredths of a pixel. (With what it lacks, to 2^-24.)
 Place PlaceInView(vtkCamera* camera)
 {
   Place position;

@@ -11,20 +11,13 @@ flat in real3 centerVCVSOutput; // from the place
 flat in real radiusVCVSOutput;
 uniform vec3 placeVC;
 uniform vec3 placeVCLow;
-uniform vec2 placeTangent; // x and y of VC where the line from the camera to the place meets z = -1
-uniform vec2 placeTangentLow;
-uniform vec2 placeBeside; // x and y of the place from that line: 0 where the place is in front of the camera
-uniform vec2 placeBesideLow;
-uniform vec2 placePixel; // where the picture shows the place: whole pixels, and parts of one
-uniform vec2 placePart;
-uniform vec2 placePartLow;
+uniform vec2 axisPixel; // where the picture shows the line of sight
+uniform vec2 axisPixelLow;
 uniform vec2 pixelVC; // the size of a pixel at z = -1, or at any z if parallel
 uniform vec2 pixelVCLow;
 uniform int cameraParallel;
 uniform float nearVC; // z of the near plane
-uniform vec2 middleVC; // z of the place from where the depth is 1/2, and the change of depth with z there, times w
-uniform vec2 middleVCLow;
-uniform vec2 farVC; // the same for where it is 1
+uniform vec2 farVC; // z of the place from the far plane, and the change of depth with z there, times w
 uniform vec2 farVCLow;
 #ifdef CLIPS
 uniform vec4 clipVC[CLIPS];
@@ -47,21 +40,17 @@ bool isLeft(vec3 place)
 
 // Finds the point of the surface on the ray: in front, or behind if the front is cut away.
 constexpr const char* FragmentSurface = R"(
-  // From the centre to a point of the ray near it. All is counted from the place, so that numbers are small and digits are kept.
+  // From the centre to a point of the ray near it: so numbers are small, and digits are kept.
   real radiusVC = radiusVCVSOutput;
-  real2 placeAt = real2(placeTangent) + real2(placeTangentLow);
   real3 centerVC = real3(placeVC) + real3(placeVCLow) + centerVCVSOutput;
-  real2 pixelsVC = real2(gl_FragCoord.xy) - real2(placePixel) - real2(placePart) - real2(placePartLow);
-  real2 tangentVC = pixelsVC * (real2(pixelVC) + real2(pixelVCLow)); // from that of the place
-  real3 offsetVC = real3(tangentVC - centerVCVSOutput.xy, 0.0);
+  real2 tangentVC = (real2(gl_FragCoord.xy) - real2(axisPixel) - real2(axisPixelLow)) * (real2(pixelVC) + real2(pixelVCLow));
+  real3 offsetVC = real3(tangentVC - centerVC.xy, 0.0);
   real3 rayVC = real3(0.0, 0.0, -radiusVC);
   if (cameraParallel == 0)
   {
     real awayVC = max(radiusVC, -centerVC.z);
-    rayVC = real3((placeAt + tangentVC) * awayVC, -awayVC);
-    offsetVC.z = -awayVC - centerVC.z;
-    real2 besideVC = real2(placeBeside) + real2(placeBesideLow) + centerVCVSOutput.xy;
-    offsetVC.xy = tangentVC * awayVC - placeAt * (centerVCVSOutput.z + offsetVC.z) - besideVC;
+    rayVC = real3(tangentVC, -1.0) * awayVC;
+    offsetVC = rayVC - centerVC;
   }
   real3 surfaceVC = real3(0.0);
   vec3 normalVCVSOutput = vec3(0.0, 0.0, 1.0);
@@ -129,13 +118,8 @@ constexpr const char* FragmentSurface = R"(
   }
   vertexVC = vec4(centerVC + surfaceVC, 1.0);
   real w = cameraParallel != 0 ? real(1.0) : -(centerVC.z + surfaceVC.z);
-  real2 middle = real2(middleVC) + real2(middleVCLow);
-  real depth = 0.5 + (middle.x + centerVCVSOutput.z + surfaceVC.z) * middle.y / w;
-  if (depth > 0.875) // digits are lost with the distance from where a depth is known
-  {
-    real2 end = real2(farVC) + real2(farVCLow);
-    depth = 1.0 + (end.x + centerVCVSOutput.z + surfaceVC.z) * end.y / w;
-  }
+  real2 end = real2(farVC) + real2(farVCLow);
+  real depth = 1.0 + (end.x + centerVCVSOutput.z + surfaceVC.z) * end.y / w;
   if (depth > 1.0)
   {
     discard;

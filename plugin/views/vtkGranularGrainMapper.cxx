@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularGrainMapper.h"
 
+#include "vtkCamera.h"
 #include "vtkFloatArray.h"
 #include "vtkGranularGrainBlocks.h"
 #include "vtkGranularGrainFragments.h"
@@ -11,7 +12,6 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
 #include "vtkOpenGLRenderer.h"
@@ -80,6 +80,25 @@ vtkDataArray* Find(vtkPolyData* data, const char* name)
 {
   return name ? data->GetPointData()->GetArray(name) : nullptr;
 }
+
+// The radii of the data: those of an array, 0 without it; 1 if none is named.
+struct Radii
+{
+  Radii(vtkPolyData* data, const char* name)
+    : Given(Find(data, name))
+    , Same(name && name[0] ? 0.0 : 1.0)
+  {
+  }
+
+  double Get(vtkIdType i) const
+  {
+    const double radius = this->Given ? this->Given->GetComponent(i, 0) : this->Same;
+    return std::isfinite(radius) ? radius : 0.0;
+  }
+
+  vtkDataArray* Given;
+  double Same;
+};
 }
 
 vtkStandardNewMacro(vtkGranularGrainMapper);
@@ -160,9 +179,8 @@ void vtkGranularGrainMapper::ReplaceShaderPositionVC(
   if (this->HaveShapes)
   {
     using namespace vtkGranularGrainShaders;
-    for (const char* part : { ShapeInputs, InFloats, "#ifdef HAVE_DOUBLES", RoughPower, "#else",
-           FloatsAlone, Power, "#endif\n", Superquadrics, Meets, "#ifdef HAVE_DOUBLES", InDoubles,
-           Power, Superquadrics, "#endif\n" })
+    for (const char* part : { ShapeInputs, InFloats, Superquadrics, Meets, "#ifdef HAVE_DOUBLES",
+           InDoubles, Superquadrics, "#endif\n" })
     {
       inputs += part;
     }
@@ -187,9 +205,8 @@ void vtkGranularGrainMapper::ReplaceShaderClip(
 void vtkGranularGrainMapper::SetCameraShaderParameters(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
-  const vtkGranularGrainView view(renderer, actor, this->From);
-  view.Set(helper.Program, renderer);
-  this->SetClips(helper.Program, view.GetCamera()->GetModelViewTransformMatrix());
+  vtkGranularGrainView(renderer, actor, this->From).Set(helper.Program, renderer);
+  this->SetClips(helper.Program, renderer->GetActiveCamera()->GetModelViewTransformMatrix());
 }
 
 int vtkGranularGrainMapper::CountClips()
@@ -236,25 +253,18 @@ void vtkGranularGrainMapper::BuildBufferObjects(vtkRenderer*, vtkActor* actor)
   auto points = MakeArray<vtkFloatArray>(count, 3);
   auto radii = MakeArray<vtkFloatArray>(count, 1);
   auto lows = MakeArray<vtkUnsignedCharArray>(count, 4);
-  std::vector<double> sizes(static_cast<std::size_t>(count));
-  const char* name = this->Owner->GetScaleArray();
-  vtkDataArray* given = Find(data, name);
-  const double same = name && name[0] ? 0.0 : 1.0; // where there is no such array
+  const Radii given(data, this->Owner->GetScaleArray());
+  const double factor = this->Growth * this->Owner->GetScaleFactor();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double radius =
-      this->Growth * this->Owner->GetScaleFactor() * (given ? given->GetComponent(i, 0) : same);
-    double& size = sizes[static_cast<std::size_t>(i)];
-    size = std::isfinite(radius) ? radius : 0.0;
-    Split(size, *radii->GetPointer(i), *lows->GetPointer(4 * i + 3));
+    Split(factor * given.Get(i), *radii->GetPointer(i), *lows->GetPointer(4 * i + 3));
     double place[3];
     data->GetPoint(i, place);
     std::transform(place, place + 3, this->From.begin(), place, std::minus<>());
     Split(place, 3, i, points, lows);
   }
   this->Inner = radii;
-  this->BuildShapes(
-    sizes, radii); // whose radii are those of spheres around, and need no more than floats
+  this->BuildShapes(radii);
   this->Values["vertexMC"] = points;
   this->Values["radiusMC"] = radii;
   this->Values["lowMC"] = lows;
@@ -336,8 +346,8 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
   return true;
 }
 
-// Loads the shapes, if there are any; the radii become those of spheres around them.
-void vtkGranularGrainMapper::BuildShapes(const std::vector<double>& given, vtkFloatArray* radii)
+// Loads the shapes, if there are any; the radii become those of spheres around them, for which floats are enough.
+void vtkGranularGrainMapper::BuildShapes(vtkFloatArray* radii)
 {
   const vtkGranularGrainShapes shapes(this->CurrentInput, this->Owner->GetShapeSizes());
   if (this->HaveShapes != shapes.Any())
@@ -356,11 +366,11 @@ void vtkGranularGrainMapper::BuildShapes(const std::vector<double>& given, vtkFl
   auto turnLows = MakeArray<vtkUnsignedCharArray>(count, 4);
   auto powers = MakeArray<vtkFloatArray>(count, 2);
   auto inner = MakeArray<vtkFloatArray>(count, 1);
+  const Radii given(this->CurrentInput, this->Owner->GetScaleArray());
   const double factor = this->Growth * this->Owner->GetScaleFactor();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double radius = factor > 0.0 ? given[static_cast<std::size_t>(i)] / factor : 0.0;
-    vtkGranularGrainShapes::Shape shape = shapes.Get(i, radius);
+    vtkGranularGrainShapes::Shape shape = shapes.Get(i, given.Get(i));
     std::for_each(shape.Axes.begin(), shape.Axes.end(), [&](double& axis) { axis *= factor; });
     Split(shape.Axes.data(), 3, i, axes, axesLows);
     axesLows->SetTypedComponent(i, 3, 128); // VTK wants a multiple of 4 bytes

@@ -23,7 +23,6 @@
 #include <array>  // For places
 #include <map>    // For values
 #include <string> // For names
-#include <vector> // For lists
 
 class vtkDataArray;
 class vtkFloatArray;
@@ -90,7 +89,7 @@ private:
   void operator=(const vtkGranularGrainMapper&) = delete;
 
   void SetClips(vtkShaderProgram* program, vtkMatrix4x4* worldToCamera);
-  void BuildShapes(const std::vector<double>& given, vtkFloatArray* radii);
+  void BuildShapes(vtkFloatArray* radii);
   void BuildColors(vtkActor* actor);
   void Upload(vtkRenderer* renderer, const vtkGranularHiddenGrains::Seen* seen);
   int CountClips();

@@ -4,8 +4,8 @@
 
 // Programs of the graphics hardware for vtkGranularGrainMapper. VTK replaces what begins with //VTK:: by colours, lights and selection.
 // VC are the coordinates of the camera, which looks along -z; MC those of the buffers: counted from a place in view, along the data's axes.
-// Where HAVE_SHAPES is defined, particles are superquadrics; else spheres. A real is a double where the hardware has them: a float holds
-// too little of the depth near a camera. Numbers come as floats and what these lack.
+// With HAVE_SHAPES particles are superquadrics; else spheres. A real is a double where the hardware has them: a float holds too little of
+// the depth near a camera. Numbers come as floats and what these lack.
 namespace vtkGranularGrainShaders
 {
 constexpr const char* Extensions = R"(//VTK::System::Dec

@@ -97,25 +97,15 @@ double vtkGranularGrainView::Place(int axis) const
   return this->ToCamera->GetElement(axis, 3);
 }
 
-// Returns where the line from the camera to the place meets z = -1; 0 if it is not well in front of the near plane.
-double vtkGranularGrainView::Tangent(int axis) const
-{
-  if (this->IsParallel())
-  {
-    return this->Place(axis);
-  }
-  return this->Place(2) < 0.5 * this->Near ? -this->Place(axis) / this->Place(2) : 0.0;
-}
-
-// The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from where the picture's
-// z is a given one, and the change of the depth with z there, times w = c z + d.
-std::array<double, 2> vtkGranularGrainView::DepthFrom(double pictures) const
+// The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from the far plane, where the
+// picture's z is 1, and the change of the depth with z there, times w = c z + d.
+std::array<double, 2> vtkGranularGrainView::FromFar() const
 {
   const double a = this->Element(2, 2);
   const double b = this->Element(2, 3);
   const double c = this->Element(3, 2);
   const double d = this->Element(3, 3);
-  const double z = (pictures * d - b) / (a - pictures * c);
+  const double z = (d - b) / (a - c);
   return { this->Place(2) - z, 0.5 * (a * d - b * c) / (c * z + d) };
 }
 
@@ -162,27 +152,16 @@ void vtkGranularGrainView::Set(vtkShaderProgram* program, vtkRenderer* renderer)
     ->GetState()
     ->vtkglGetIntegerv(ViewportOfOpenGL, viewport);
   std::array<double, 2> pixelSizes;
-  std::array<double, 2> parts;
-  float pixels[2];
+  std::array<double, 2> axisPixel;
   for (int i = 0; i < 2; ++i)
   {
     const auto axis = static_cast<std::size_t>(i);
-    const double pixel = viewport[i] +
-      0.5 * viewport[i + 2] * (1.0 + this->Zoom(i) * this->Tangent(i) + this->Middle(i));
-    pixels[i] = std::floor(static_cast<float>(pixel));
-    parts[axis] = pixel - pixels[i];
+    axisPixel[axis] = viewport[i] + 0.5 * viewport[i + 2] * (1.0 + this->Middle(i));
     pixelSizes[axis] = 2.0 / (viewport[i + 2] * this->Zoom(i));
   }
-  program->SetUniform2f("placePixel", pixels);
-  SetNumbers(program, "placePart", "placePartLow", parts);
+  SetNumbers(program, "axisPixel", "axisPixelLow", axisPixel);
   SetNumbers(
     program, "placeVC", "placeVCLow", std::array{ this->Place(0), this->Place(1), this->Place(2) });
-  SetNumbers(
-    program, "placeTangent", "placeTangentLow", std::array{ this->Tangent(0), this->Tangent(1) });
-  const bool isAimed = this->Tangent(0) != 0.0 || this->Tangent(1) != 0.0; // at the place
-  SetNumbers(program, "placeBeside", "placeBesideLow",
-    isAimed ? std::array{ 0.0, 0.0 } : std::array{ this->Place(0), this->Place(1) });
   SetNumbers(program, "pixelVC", "pixelVCLow", pixelSizes);
-  SetNumbers(program, "middleVC", "middleVCLow", this->DepthFrom(0.0));
-  SetNumbers(program, "farVC", "farVCLow", this->DepthFrom(1.0));
+  SetNumbers(program, "farVC", "farVCLow", this->FromFar());
 }

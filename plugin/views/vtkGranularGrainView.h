@@ -27,16 +27,13 @@ public:
   /// Sets what the programs of vtkGranularGrainShaders.h need.
   void Set(vtkShaderProgram* program, vtkRenderer* renderer) const;
 
-  vtkOpenGLCamera* GetCamera() const { return this->Camera; }
-
 private:
   bool IsParallel() const;
   double Element(int row, int column) const;
   double Zoom(int axis) const;
   double Middle(int axis) const;
   double Place(int axis) const;
-  double Tangent(int axis) const;
-  std::array<double, 2> DepthFrom(double pictures) const;
+  std::array<double, 2> FromFar() const;
 
   vtkOpenGLCamera* Camera;
   vtkMatrix4x4* CameraToPicture;

@@ -16,35 +16,29 @@ constexpr const char* InFloats = R"(
 #define number float
 #define number2 vec2
 #define number3 vec3
+#ifdef HAVE_DOUBLES
+#define ROUGH
+#endif
 )";
 
 constexpr const char* InDoubles = R"(
 #undef number
 #undef number2
 #undef number3
+#undef ROUGH
 #define number double
 #define number2 dvec2
 #define number3 dvec3
 )";
 
-// A step in doubles comes after the search in floats, which need not be exact then.
-constexpr const char* RoughPower = R"(
-const float enough = 1e-5;
-
-float power(float x, float n)
-{
-  return pow(x, n);
-}
-)";
-
-constexpr const char* FloatsAlone = R"(
-const float enough = 1e-7;
-)";
-
-constexpr const char* Power = R"(
-// x^n for x, n >= 0 by products and square roots, which graphics hardware rounds well, for n below 4096
+constexpr const char* Superquadrics = R"(
+// x^n for x, n >= 0, n below 4096. A step in doubles comes after a search in floats, which then may be rough; else by products and square
+// roots, which graphics hardware rounds well.
 number power(number x, float n)
 {
+#ifdef ROUGH
+  return pow(x, n);
+#else
   number result = 1.0;
   float whole = floor(n);
   float part = n - whole;
@@ -71,10 +65,9 @@ number power(number x, float n)
     }
   }
   return result;
+#endif
 }
-)";
 
-constexpr const char* Superquadrics = R"(
 // (|x|^n2 + |y|^n2)^(n1/n2) + |z|^n1, which is 1 on the surface, and its gradient by n1. x and y are taken in parts of the larger one:
 // near the axis of z their powers would be less than floats hold, but a root of them is not.
 number superquadric(number3 p, vec2 n, out number3 gradient)
@@ -112,7 +105,11 @@ constexpr const char* Meets = R"(
 bool meets(vec3 o, vec3 d, vec2 n, float side, inout float t)
 {
   vec3 gradient;
-  float least = enough / length(d);
+#ifdef ROUGH
+  float least = 1e-5 / length(d);
+#else
+  float least = 1e-7 / length(d);
+#endif
   for (int k = 0; k < 48; ++k)
   {
     float move = step_of(o + t * d, d, n, gradient);
