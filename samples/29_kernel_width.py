@@ -25,6 +25,7 @@ vg.set_properties(spheres.GlyphType, ThetaResolution=40, PhiResolution=40)
 circles = Slice(Input=spheres)
 vg.set_properties(circles.SliceType, Origin=[0, 0, 0], Normal=[0, 1, 0])
 box = Outline(Input=Box(XLength=SIDE, YLength=SIDE, ZLength=0.036, Center=[0, 0, 0.018]))
+lines = AppendGeometry(Input=[circles, box])
 
 strip = CreateLayout()
 strip.SplitVertical(0, 1 / 2)
@@ -43,8 +44,7 @@ for row, (name, title, scheme, labels) in enumerate((("volumefraction", "volume 
         AssignViewToLayout(view, strip, 7 + 4 * row + column)
         shown = Show(average, view, Ambient=1, Diffuse=0)
         ColorBy(shown, ("POINTS", name))
-        for lines in (circles, box):
-            Show(lines, view, Ambient=1, Diffuse=0, AmbientColor=[0.2] * 3, DiffuseColor=[0.2] * 3, LineWidth=1.3)
+        Show(lines, view, Ambient=1, Diffuse=0, AmbientColor=[0.2] * 3, DiffuseColor=[0.2] * 3, LineWidth=1.3)
         Show(Text(Text=f"{width} {'radius' if width == 1 else 'radii'}"), view, WindowLocation="Upper Center", FontSize=14)
         Render(view)
         vg.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -0.1, 0.0215], CameraFocalPoint=[0, 0, 0.0215],

@@ -78,7 +78,6 @@ def paths(frames, ids=None, use_images=True, unwrapped=False):
 def lines_of(output):
     """Of each id in a vtkPolyData a list of lines, each a dictionary of its point and cell arrays."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkIdList
     found = {}
     if not output.GetNumberOfCells():
         return found
@@ -87,10 +86,10 @@ def lines_of(output):
         array = output.GetPointData().GetArray(i)
         arrays[array.GetName()] = vtk_to_numpy(array)
     ids, lengths = (vtk_to_numpy(output.GetCellData().GetArray(name)) for name in ("id", "length"))
-    points = vtkIdList()
-    for cell in range(output.GetNumberOfCells()):
-        output.GetCellPoints(cell, points)
-        rows = [points.GetId(i) for i in range(points.GetNumberOfIds())]
+    cells = [rows for each in (output.GetVerts(), output.GetLines()) if each.GetNumberOfCells()
+             for rows in numpy.split(vtk_to_numpy(each.GetConnectivityArray()), vtk_to_numpy(each.GetOffsetsArray())[1:-1])]
+    assert len(cells) == output.GetNumberOfCells()
+    for cell, rows in enumerate(cells):
         line = {name: array[rows] for name, array in arrays.items()}
         line["length"] = lengths[cell]
         found.setdefault(int(ids[cell]), []).append(line)

@@ -87,6 +87,6 @@ def check_depths(kind, scenes):
     assert part < 2**-20 if FLOATS else units.max() <= 1
 
 
-more = int(sys.argv[1])  # 15: a thousand scenes, in about three minutes
-for kind, scenes in (("spheres", 30), ("ellipsoids", 30), ("superquadrics", 6)):
+more = int(sys.argv[1])  # 30: a thousand scenes, in about three minutes
+for kind, scenes in (("spheres", 15), ("ellipsoids", 15), ("superquadrics", 3)):
     check_depths(kind, scenes * more)
