@@ -19,13 +19,13 @@ STEPS = (1000, 2000, 3000, 4000)  # of the files of Euler cells
 
 
 def saved(proxy, name, **properties):
-    vg.save(proxy, name, **properties)
+    vg.save(proxy, os.path.abspath(name), **properties)
     return content(name)
 
 
 def saved_data(proxy, name, **properties):
     """By ParaView's own means."""
-    SaveData(name, proxy, **properties)
+    SaveData(os.path.abspath(name), proxy, **properties)
     return content(name)
 
 
