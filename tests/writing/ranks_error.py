@@ -50,8 +50,8 @@ def check(source, faults, forms):
         file.write("the old file")
     for form in forms:
         for proxy, name in [*faults, (source, "gone/" + old)]:
-            check_refused(proxy, name, **form)
-        vg.save(source, new, **form)
+            check_refused(proxy, os.path.abspath(name), **form)
+        vg.save(source, os.path.abspath(new), **form)
         os.remove(new)
 
 
