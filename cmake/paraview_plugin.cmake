@@ -31,11 +31,10 @@ else()
     cmake_parse_arguments(PARSE_ARGV 0 help "" "NAME;TARGET;OUTPUT_DIR;OUTPUT_PATH" "")
     set(pages "${help_OUTPUT_DIR}/${help_NAME}.qch")
     set(script "${PROJECT_SOURCE_DIR}/cmake/help_pages.py")
-    file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/xml/*.xml")
     file(MAKE_DIRECTORY "${help_OUTPUT_DIR}")
     add_custom_command(OUTPUT "${pages}"
-      COMMAND "${Python3_EXECUTABLE}" -B "${script}" "${pages}" ${files}
-      DEPENDS "${script}" ${files}
+      COMMAND "${Python3_EXECUTABLE}" -B "${script}" "${pages}" ${granular_xmls}
+      DEPENDS "${script}" ${granular_xmls}
       COMMENT "Making the help pages"
       VERBATIM)
     add_custom_target(${help_TARGET} DEPENDS "${pages}")

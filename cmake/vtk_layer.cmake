@@ -30,6 +30,8 @@ without ParaView (GRANULAR_PARAVIEW=OFF) or the core alone (GRANULAR_BUILD_PLUGI
     "${PROJECT_SOURCE_DIR}/plugin/servermanager"
     "${PROJECT_SOURCE_DIR}/plugin/views")
   list(APPEND granular_module_targets Granular::vtkGranularServerManager Granular::vtkGranularViews)
+  include(cmake/server_manager_xml.cmake)
+  granular_expand_xmls(granular_xmls)
 else()
   # VTK 9.4 and later link an optional module only if it is asked for here.
   granular_find(VTK 9.1

@@ -425,6 +425,11 @@ class vtkGranularA : public vtkPolyDataAlgorithm
         own = self.xml(self.property('name="c" information_property="b"')).replace(' class=', ' base_proxyname="B" class=')
         self.assertEqual(self.check(xml__z_dot_xml=base, xml__a_dot_xml=own), ["xml/z.xml:3"])
 
+    def test_shared_parts(self):
+        part = self.property('name="@Of@s" command="Set@of@"') + "\n" + self.property('name="b" command="SetSize"', "@inside@")
+        own = self.xml(f'<Shared name="P" of="Size">\n{self.DOCUMENTATION}\n</Shared>\n' + self.property('name="c" command="SetNone"'))
+        self.assertEqual(self.check(xml__a_dot_xml=own, xml__shared__P_dot_xml=part), ["xml/a.xml:3", "xml/a.xml:6"])
+
     def test_element(self):
         text = self.xml("").replace("SourceProxy", "GranularAProxy")
         self.assertEqual(self.check(xml__a_dot_xml=text), ["xml/a.xml:2"])

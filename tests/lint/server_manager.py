@@ -19,6 +19,7 @@ INHERITED = {
 TIMES = {"TimestepValues", "TimeRange", "TimeLabelAnnotation"}
 COMMANDS = ("command", "clean_command", "set_number_command")
 SHORTEST_DOCUMENTATION = 20
+SHARED = re.compile(r'<Shared name="(?P<name>[A-Za-z]+)"(?: of="(?P<of>[A-Za-z]+)")?(?:/>|>(?P<inside>.*?)</Shared>)', re.DOTALL)
 
 
 class Element:
@@ -58,6 +59,16 @@ def parse(path, text):
     return top
 
 
+def expand(root, text):
+    """The text with <Shared name="X" of="Y">inside</Shared> replaced by xml/shared/X.xml, as cmake/server_manager_xml.cmake does it;
+    on as many lines, so that complaints name the line of the stand-in."""
+    def shared(match):
+        name, of, inside = (match.group(key) or "" for key in ("name", "of", "inside"))
+        part = tree.read(root, f"xml/shared/{name}.xml").replace("@Of@", of).replace("@of@", of.lower()).replace("@inside@", inside)
+        return expand(root, part).replace("\n", " ") + "\n" * match.group().count("\n")
+    return SHARED.sub(shared, text)
+
+
 def proxies(root):
     """Group and proxy of each element of the files, and complaints. As ParaView has it, the children of a proxy begin with
     those of its bases."""
@@ -65,7 +76,7 @@ def proxies(root):
     for path in tree.files(root):
         if re.match(r"xml/[^/]+\.xml$", path):
             try:
-                top = parse(path, tree.read(root, path))
+                top = parse(path, expand(root, tree.read(root, path)))
                 found += [(group.get("name"), proxy) for group in top.all("ProxyGroup") for proxy in group.children]
             except expat.ExpatError as error:
                 complaints.append((path, error.lineno, f"not XML: {expat.errors.messages[error.code]}"))
