@@ -6,7 +6,7 @@
     core/granular/mpi      the same, and mpi.h; no other room may include it
     core/c, core/bonds     its own folder, granular/ but for mpi, the C++ standard library; granular.h and granular_bonds.h: C's alone
     core/granular/granular.h  any header of any room but mpi
-    plugin/vtk/*.h         the superclass, the export macro, and <std> with the reason behind it
+    plugin/vtk/**.h        the superclass, the export macro, and <std> with the reason behind it
     plugin/vtk/*.cxx, private/   granular/ and VTK, but nothing of Qt or of ParaView; MPI in private/,
                            whose rooms include each other as PRIVATE_ROOMS says
     plugin/servermanager   VTK, our VTK classes, ParaView's server manager, but no core and no Qt
@@ -264,7 +264,7 @@ def check(root):
             yield from check_core(root, path)
         elif re.match(r"core/(c|bonds)/.*\.(h|cpp)$", path):
             yield from check_c(root, path)
-        elif re.match(r"plugin/vtk/[^/]+\.h$", path):
+        elif re.match(r"plugin/vtk/(?!private/).+\.h$", path):
             yield from check_vtk_header(root, path)
         elif re.match(r"plugin/vtk/.*\.(h|cxx|txx)$", path):
             yield from check_vtk_source(root, path)

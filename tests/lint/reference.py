@@ -160,7 +160,7 @@ def pages(root):
     found, _ = server_manager.proxies(root)
     exposed = exposed_names(proxy for _, proxy in found)
     for group, proxy in found:
-        headers = [f"{folder}{proxy.get('class')}.h" for folder in HEADERS]
+        headers = [path for path in tree.files(root) if path.startswith(HEADERS) and path.endswith(f"/{proxy.get('class')}.h")]
         header = next((one for one in headers if os.path.exists(os.path.join(root, one))), None)
         if header and group in GROUPS:
             yield f"{FOLDER}{proxy.get('name')}.md", page(group, proxy, tree.read(root, header), exposed)

@@ -100,10 +100,14 @@ def methods(header):
     return names
 
 
+def header_of(root, class_name):
+    """The path of a class's header, or None."""
+    return next((path for path in tree.files(root) if path.startswith("plugin/") and path.endswith(f"/{class_name}.h")), None)
+
+
 def known_methods(root, class_name):
     """Methods of a class of ours and of its superclasses of ours; None if there is no header."""
-    headers = [f"plugin/{folder}/{class_name}.h" for folder in ("vtk", "views")]
-    header = next((one for one in headers if os.path.exists(os.path.join(root, one))), None)
+    header = header_of(root, class_name)
     if header is None:
         return None
     text = tree.read(root, header)
@@ -136,7 +140,7 @@ def check_proxy(root, proxy):
     if known is not None:
         known |= INHERITED
     elif proxies_class.startswith("vtkGranular"):
-        yield path, proxy.line, f"{name}: there is no {proxies_class}.h in plugin/vtk or plugin/views"
+        yield path, proxy.line, f"{name}: there is no {proxies_class}.h below plugin/"
     # ParaView makes a vtkSMX of an element X; one it does not find leaves no proxy and no error
     header = f"plugin/servermanager/vtkSM{proxy.tag}.h"
     if proxy.tag.startswith("Granular") and not os.path.exists(os.path.join(root, header)):
@@ -169,8 +173,8 @@ def check_extensions(root, found):
     extension."""
     first = {}
     for kind, extension, path, line, proxy, name in found:
-        header = f"plugin/vtk/{name}.h"
-        looks = os.path.exists(os.path.join(root, header)) and "CanReadFile" in tree.read(root, header)
+        header = header_of(root, name)
+        looks = header is not None and "CanReadFile" in tree.read(root, header)
         other, other_looks = first.setdefault((kind, extension.lower()), (proxy, looks))
         if other != proxy and not (looks and other_looks):
             yield path, line, f"{proxy}: the extension {extension} is claimed by {other} already"
