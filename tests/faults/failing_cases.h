@@ -138,24 +138,40 @@ inline bool all_faults_wanted()
   return wanted != nullptr && std::string(wanted) == "all";
 }
 
-/// The number of the call that fails after call `number` has: the next one, or of many calls the first and then some, spread over
-/// all, about `most` of each. 0: all.
-inline long next_number(long number, long calls, long most)
+/// The calls that fail in turn: all, or of more than `most` the first, the last and about so many between, with another start each time.
+struct Turns
 {
-  const long step = most == 0 || all_faults_wanted() ? 1 : std::max(1L, calls / most);
-  return number + (number < std::min(step, most) ? 1 : step);
-}
+  Turns(long most, const std::function<long(long number)>& use)
+  {
+    if (most > 0 && !all_faults_wanted())
+    {
+      static long begun = 0;
+      last = use(FailingCalls::always);
+      step = std::max(1L, last / most) | 1; // odd, as calls often come in pairs
+      second = 2 + begun++ % step;
+    }
+  }
 
-/// Calls use(number), which lets that call fail, for each call until it returns fewer calls than that; with `most`, of many calls for
-/// some. Files and memory must be as many after it as before: something may be kept for good, but not each time. Returns how many faults
+  long after(long number) const
+  {
+    return number < last ? std::min(number == 1 ? second : number + step, last) : last + 1;
+  }
+
+  long last = FailingCalls::always;
+  long step = 1;
+  long second = 2;
+};
+
+/// Calls use(number), which lets that call fail, for each of the Turns until it returns fewer calls than that. Files and memory must be as many after it as before: something may be kept for good, but not each time. Returns how many faults
 /// there were.
 inline long fail_each(const char* name, long most, const std::function<long(long number)>& use)
 {
   constexpr int most_tries = 3;
-  long made = 0;
+  const Turns turns(most, use);
   long delivered = 0;
   bool fired = true;
-  for (long number = 1; fired && !testing::Test::HasFailure();)
+  for (long number = 1; fired && number <= turns.last && !testing::Test::HasFailure();
+       number = turns.after(number))
   {
     SCOPED_TRACE(std::string(name) + ", call " + std::to_string(number));
     const long files = open_files();
@@ -169,10 +185,8 @@ inline long fail_each(const char* name, long most, const std::function<long(long
     }
     EXPECT_FALSE(grown && !testing::Test::HasFailure()) << "memory is lost";
     EXPECT_EQ(open_files(), files) << "files are left open";
-    made = std::max(made, possible);
     fired = possible >= number;
     delivered += fired ? 1 : 0;
-    number = next_number(number, made, most);
   }
   return delivered;
 }

@@ -117,23 +117,21 @@ protected:
   void FailEach(const FailingCase& one, const Use& use)
   {
     const bool alone = this->Size() == 1;
-    const long most = of_memory(one) ? (alone ? 20 : 2) : (alone ? 0 : 3);
+    const long most = alone ? (of_memory(one) ? 8 : 6) : 2;
     long delivered = 0;
     for (int rank = 0; rank < this->Size(); ++rank)
     {
-      long made = 0;
+      const auto ofRank = [&](long number) { return this->FailOne(one, rank, number, use); };
+      const Turns turns(most, ofRank);
       bool fired = true;
-      for (long number = 1; fired;)
+      for (long number = 1; fired && number <= turns.last; number = turns.after(number))
       {
-        const long possible = this->FailOne(one, rank, number, use);
-        made = std::max(made, possible);
-        fired = possible >= number;
+        fired = ofRank(number) >= number;
         delivered += fired ? 1 : 0;
         if (this->OfAny(HasFailure()))
         {
           return;
         }
-        number = next_number(number, made, most);
       }
     }
     expect_delivered(one.name, delivered);

@@ -14,8 +14,8 @@ using namespace runs;
 
 namespace
 {
-constexpr long most_of_memory = 20; ///< calls that are tried, where not all are wanted
-constexpr long most_of_large = 2;   ///< in files that take long
+constexpr long most_of_calls = 8; ///< that are tried, where not all are wanted
+constexpr long most_of_large = 2; ///< in files that take long
 
 /// What came of a function.
 struct Result
@@ -170,7 +170,7 @@ TEST_P(FailingWriter, LeavesTheOldFileOrTheNewOne)
     {
       continue; // as for the one file of "text", which waits for the disk, and for the files that do not
     }
-    const long most = large ? most_of_large : of_memory(one) ? most_of_memory : 0;
+    const long most = large ? most_of_large : most_of_calls;
     const long delivered =
       fail_each(one.name, most, [&](long number) { return this->try_one(one, number); });
     EXPECT_TRUE(HasFailure() || (delivered > 0) == (waits || one.kinds != calls::sync)) << one.name;

@@ -75,7 +75,7 @@ struct Look
   bool operator==(const Look&) const = default;
 };
 
-constexpr long most_of_memory = 25; ///< calls that are tried, where not all are wanted
+constexpr long most_of_calls = 6; ///< that are tried, where not all are wanted
 
 constexpr long always = FailingCalls::always;
 
@@ -233,7 +233,7 @@ protected:
       const long most = most_calls(one, usual, bytes);
       const auto use = [&](long number)
       { return this->try_one(clean, one, number, most, prepare); };
-      expect_delivered(one.name, fail_each(one.name, is_of_file(one) ? 0 : most_of_memory, use));
+      expect_delivered(one.name, fail_each(one.name, most_of_calls, use));
       if (::testing::Test::HasFailure())
       {
         return;
@@ -366,4 +366,4 @@ TEST(FailingNewFile, IsMadeWhereMakingItIsInterrupted)
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FailingReads, ::testing::ValuesIn(small_kinds), name_of);
 INSTANTIATE_TEST_SUITE_P(Kinds, FailingLargeReads,
-  ::testing::Values(FilesOfKind{ "many rows", GRANULAR_KIND_DUMP, {}, 1, "", 180000 }), name_of);
+  ::testing::Values(FilesOfKind{ "many rows", GRANULAR_KIND_DUMP, {}, 1, "", 60000 }), name_of);
