@@ -85,16 +85,16 @@ void make(Packed& packed, int kind)
   switch (kind)
   {
     case 0:
-      packed.bytes = gzip(content);
+      packed.bytes = gzip(content, { 1 });
       break;
     case 1:
       for (std::size_t at = 0; at < content.size(); at += 70000)
       {
-        packed.bytes += gzip(content.substr(at, 70000));
+        packed.bytes += gzip(content.substr(at, 70000), { 1 });
       }
       break;
     case 2:
-      packed.bytes = gzip(content.substr(0, 2500000), { 9, 0, true }) + gzip("") +
+      packed.bytes = gzip(content.substr(0, 2500000), { 1, 0, true }) + gzip("") +
         gzip(content.substr(2500000), { 1 });
       break;
     default:
@@ -156,7 +156,7 @@ TEST(Segments, GiveTheContentToManyThreads)
   {
     Packed packed;
     fill(packed, kind);
-    for (const int threads : { 1, 2, 3, 8 })
+    for (const int threads : { 1 + kind, 8 })
     {
       const auto source = packed.open(0, whole, std::max(threads, 2));
       ASSERT_TRUE(source) << kind;

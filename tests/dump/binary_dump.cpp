@@ -305,7 +305,7 @@ TEST(BinaryDump, LayoutsAreToldFromEachOther)
   const Doubles low = { 0, 0, -1, -0.5, -1024, 1, -1e-3 };
   const Doubles lengths = { 1, 0.5, 1024, 0.1, 1e9, 2, 0 };
   const Doubles tilts = { 0, 0, 0.25, -0.25 };
-  for (int round = 0; round < 30'000; ++round)
+  for (int round = 0; round < 8'000; ++round)
   {
     const Form& form = forms()[random() % forms().size()];
     const auto triclinic =
@@ -512,7 +512,6 @@ TEST(BinaryDump, CompressedFiles)
     Frame wide;
     wide.timestep = 2;
     wide.size_one = 5000;
-    wide.columns = form.named() ? "id x y z" : "";
     std::string names = "id x y z";
     for (int i = 5; i <= 5000; ++i)
     {
@@ -525,34 +524,32 @@ TEST(BinaryDump, CompressedFiles)
     const std::vector<Frame> frames =
       form.named() ? std::vector<Frame>{ small, wide, small } : std::vector<Frame>{ wide, wide };
     const Bytes bytes = binary::write(form, frames);
-    for (const bool gzip : { true, false })
+    const bool gzip = !form.named();
+    SCOPED_TRACE(std::string(name) + (gzip ? ", gzip" : ", Zstandard"));
+    const std::string packed = gzip ? packing::gzip(bytes.bytes) : packing::zstd(bytes.bytes);
+    const Dump dump(packed, form.named() ? "" : names);
+    EXPECT_EQ(dump.said(), "");
+    ASSERT_EQ(dump.frames(), frames.size());
+    for (std::size_t i = dump.frames(); i-- > 0;)
     {
-      SCOPED_TRACE(std::string(name) + (gzip ? ", gzip" : ", Zstandard"));
-      const std::string packed = gzip ? packing::gzip(bytes.bytes) : packing::zstd(bytes.bytes);
-      const Dump dump(packed, form.named() ? "" : names);
-      EXPECT_EQ(dump.said(), "");
-      ASSERT_EQ(dump.frames(), frames.size());
-      for (std::size_t i = dump.frames(); i-- > 0;)
+      EXPECT_EQ(dump.entry(i).end, static_cast<std::int64_t>(bytes.ends[i]));
+      if (frames[i].size_one == 12)
       {
-        EXPECT_EQ(dump.entry(i).end, static_cast<std::int64_t>(bytes.ends[i]));
-        if (frames[i].size_one == 12)
-        {
-          expect_particles(dump, i, frames[i]);
-          continue;
-        }
-        const Decoded got = dump.read({}, i);
-        EXPECT_EQ(got.rows(), 461);
-        EXPECT_EQ(got.integers("id")[0], 7);
-        EXPECT_EQ(got.integers("id")[460], 8);
-        EXPECT_EQ(got.values("c5000")[460], 4);
+        expect_particles(dump, i, frames[i]);
+        continue;
       }
-      const Folder folder;
-      EXPECT_TRUE(granular::is_dump_file(folder.write("a.bin", packed)));
-      // the end is not there yet
-      const Dump cut(packed.substr(0, packed.size() / 2), form.named() ? "" : names);
-      EXPECT_LT(cut.frames(), frames.size());
-      EXPECT_EQ(cut.said(), "");
+      const Decoded got = dump.read({}, i);
+      EXPECT_EQ(got.rows(), 461);
+      EXPECT_EQ(got.integers("id")[0], 7);
+      EXPECT_EQ(got.integers("id")[460], 8);
+      EXPECT_EQ(got.values("c5000")[460], 4);
     }
+    const Folder folder;
+    EXPECT_TRUE(granular::is_dump_file(folder.write("a.bin", packed)));
+    // the end is not there yet
+    const Dump cut(packed.substr(0, packed.size() / 2), form.named() ? "" : names);
+    EXPECT_LT(cut.frames(), frames.size());
+    EXPECT_EQ(cut.said(), "");
   }
 }
 
@@ -1154,7 +1151,7 @@ TEST(BinaryDump, RandomBytesAreNone)
 {
   std::string bytes(200, '\0');
   std::vector<std::uint64_t> taken;
-  for (std::uint64_t seed = 0; seed < 100'000; ++seed)
+  for (std::uint64_t seed = 0; seed < 20'000; ++seed)
   {
     std::uint64_t state = seed << 32;
     const auto random = [&state]

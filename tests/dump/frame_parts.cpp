@@ -285,13 +285,13 @@ TEST(FrameParts, TheLongestRow)
 {
   constexpr std::size_t longest = std::size_t{ 1 } << 22;
   const std::string fits(longest - std::string("2 0 0 0b").size(), ' ');
+  const Dump good(one_frame("id x y z state", "1 0 0 0 a\n2 0 0 0" + fits + "b\n3 0 0 0 c\n"));
+  const Dump bad(one_frame("id x y z state", "1 0 0 0 a\n2 0 0 0" + fits + " b\n3 0 0 0 c\n"));
   for (const std::size_t chunk : { std::size_t{ 1 } << 18, std::size_t{ 3'000'000 },
          std::size_t{ 1 } << 22, std::size_t{ 1 } << 40, ~std::size_t{} })
   {
     const DumpRequest request = in_chunks({}, 2, chunk);
-    const Dump good(one_frame("id x y z state", "1 0 0 0 a\n2 0 0 0" + fits + "b\n3 0 0 0 c\n"));
     EXPECT_EQ(good.read(request).integers("id"), Ids({ 1, 2, 3 }));
-    const Dump bad(one_frame("id x y z state", "1 0 0 0 a\n2 0 0 0" + fits + " b\n3 0 0 0 c\n"));
     EXPECT_EQ(
       bad.error(request), "memory:11: expected a row of at most 4194304 bytes, got a longer one");
   }

@@ -47,10 +47,10 @@ bool forget_peak()
 #endif
 }
 
-/// 5 million rows, whose memory has been touched.
+/// 3 million rows, whose memory has been touched.
 struct ManyRows
 {
-  static constexpr std::int64_t count = 5000000;
+  static constexpr std::int64_t count = 3000000;
 
   ManyRows()
     : ids(count)
@@ -112,7 +112,7 @@ std::int64_t needed(const ManyRows& rows, int ranks, const DumpFormat& format, W
   const std::int64_t peak = status_bytes("VmHWM:") - before;
   EXPECT_EQ(errors.front(), "");
   EXPECT_GT(std::filesystem::file_size(folder.path("a")),
-    100000000U / (format.compression == Compression::None ? 1U : 20U));
+    75000000U / (format.compression == Compression::None ? 1U : 20U));
   std::filesystem::remove(folder.path("a"));
   return peak;
 }
@@ -126,16 +126,14 @@ TEST(WriteMemory, beside_the_rows)
     { Form{ { true, false }, false, false }, Form{ { false, true }, false, true } })
   {
     const DumpFormat format = atom_format(form, Dialect::Lammps);
-    for (const int threads : { 1, 4 })
+    const int threads = form.binary ? 1 : 4;
+    const std::int64_t bytes = needed(rows, 1, format, { ParallelMode::Gather, threads });
+    if (bytes < 0)
     {
-      const std::int64_t bytes = needed(rows, 1, format, { ParallelMode::Gather, threads });
-      if (bytes < 0)
-      {
-        GTEST_SKIP() << "the system does not tell";
-      }
-      worst = std::max(worst, bytes);
-      EXPECT_LE(bytes, most) << form.name() << ", threads " << threads;
+      GTEST_SKIP() << "the system does not tell";
     }
+    worst = std::max(worst, bytes);
+    EXPECT_LE(bytes, most) << form.name() << ", threads " << threads;
   }
   RecordProperty("worst", std::to_string(worst));
   EXPECT_GT(worst, 0);
@@ -148,14 +146,12 @@ TEST(WriteMemory, beside_the_rows_of_ranks)
   const DumpFormat format = atom_format({ { true, false }, false, false }, Dialect::Lammps);
   for (const ParallelMode mode : { ParallelMode::Gather, ParallelMode::MpiIo })
   {
-    for (const int threads : { 1, 4 })
+    const int threads = mode == ParallelMode::Gather ? 4 : 1;
+    const std::int64_t bytes = needed(rows, 3, format, { mode, threads });
+    if (bytes < 0)
     {
-      const std::int64_t bytes = needed(rows, 3, format, { mode, threads });
-      if (bytes < 0)
-      {
-        GTEST_SKIP() << "the system does not tell";
-      }
-      EXPECT_LE(bytes, most) << "mode " << static_cast<int>(mode) << ", threads " << threads;
+      GTEST_SKIP() << "the system does not tell";
     }
+    EXPECT_LE(bytes, most) << "mode " << static_cast<int>(mode) << ", threads " << threads;
   }
 }

@@ -131,21 +131,16 @@ inline void expect_delivered(const char* case_name, long delivered)
   EXPECT_TRUE(testing::Test::HasFailure() || delivered > 0) << case_name << " never came up";
 }
 
-/// The environment asks for all calls: GRANULAR_FAULTS=all.
-inline bool all_faults_wanted()
-{
-  const char* const wanted = std::getenv("GRANULAR_FAULTS");
-  return wanted != nullptr && std::string(wanted) == "all";
-}
-
-/// The calls that fail in turn: all, or of more than `most` the first, the last and about so many between, with another start each time.
+/// The calls that fail in turn: the first, the last and about `most` between them, which begin at another one each time. With
+/// GRANULAR_FAULTS=all in the environment: all.
 struct Turns
 {
   Turns(long most, const std::function<long(long number)>& use)
   {
-    if (most > 0 && !all_faults_wanted())
+    static long begun = 0;
+    const char* const wanted = std::getenv("GRANULAR_FAULTS");
+    if (wanted == nullptr || std::string_view(wanted) != "all")
     {
-      static long begun = 0;
       last = use(FailingCalls::always);
       step = std::max(1L, last / most) | 1; // odd, as calls often come in pairs
       second = 2 + begun++ % step;
@@ -162,8 +157,8 @@ struct Turns
   long second = 2;
 };
 
-/// Calls use(number), which lets that call fail, for each of the Turns until it returns fewer calls than that. Files and memory must be as many after it as before: something may be kept for good, but not each time. Returns how many faults
-/// there were.
+/// Calls use(number), which lets that call fail, for each of the Turns until it returns fewer calls than that. Files and memory must be
+/// as many after it as before: something may be kept for good, but not each time. Returns how many faults there were.
 inline long fail_each(const char* name, long most, const std::function<long(long number)>& use)
 {
   constexpr int most_tries = 3;

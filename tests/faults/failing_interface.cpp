@@ -170,9 +170,8 @@ TEST_P(FailingWriter, LeavesTheOldFileOrTheNewOne)
     {
       continue; // as for the one file of "text", which waits for the disk, and for the files that do not
     }
-    const long most = large ? most_of_large : most_of_calls;
-    const long delivered =
-      fail_each(one.name, most, [&](long number) { return this->try_one(one, number); });
+    const long delivered = fail_each(one.name, large ? most_of_large : most_of_calls,
+      [&](long number) { return this->try_one(one, number); });
     EXPECT_TRUE(HasFailure() || (delivered > 0) == (waits || one.kinds != calls::sync)) << one.name;
   }
   EXPECT_EQ(written_but_ > 0, waits && !large) << "of the folder, which is behind the file";

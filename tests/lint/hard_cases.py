@@ -84,7 +84,7 @@ def figures(root, wanted):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["ctest", "--test-dir", build, "--no-tests=error", "-R", rf"^({names})(\.[0-9]+)?$", "--output-on-failure"],
                        check=True, stdout=subprocess.DEVNULL,
-                       env={**os.environ, "GRANULAR_HARD_CASES": folder})
+                       env={**os.environ, "GRANULAR_NUMBERS": "2000000", "GRANULAR_HARD_CASES": folder})
         for name in os.listdir(folder):
             with open(os.path.join(folder, name), encoding="utf-8") as stream:
                 for line in stream:

@@ -278,7 +278,7 @@ TEST(PackingRandomCounts, VelocitiesAreNormal)
 TEST(PackingRandomPlaces, AreEven)
 {
   PackingRequest request;
-  request.box = tilted_box({}, { 70, 70, 70 });
+  request.box = tilted_box({}, { 50, 50, 50 });
   request.boundary = "p p p";
   request.radii = one_radius(0.5);
   request.solid_fraction = 0.25;
@@ -290,7 +290,7 @@ TEST(PackingRandomPlaces, AreEven)
     std::vector<double> counts(slices);
     for (const Vector3& point : particles.points)
     {
-      ++counts[std::min(static_cast<std::size_t>(point[axis] / 70 * slices), slices - 1)];
+      ++counts[std::min(static_cast<std::size_t>(point[axis] / 50 * slices), slices - 1)];
     }
     double chi_square = 0;
     for (const double count : counts)
@@ -305,7 +305,7 @@ TEST(PackingRandomPlaces, AreEven)
 TEST(PackingRandomPlaces, PairsAreThoseOfPlainAdsorption)
 {
   constexpr double edge = 14;
-  constexpr int times = 150;
+  constexpr int times = 75;
   std::array<Moments, 2> both;
   for (int seed = 1; seed <= times; ++seed)
   {

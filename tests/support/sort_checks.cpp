@@ -278,13 +278,16 @@ DumpFrame sorted_frame(
 
 void check_sort_by_id(granular::Communicator& ranks)
 {
-  bool flag = false; // ids as an array or not, and both precisions, in turns
+  constexpr std::size_t sizes[] = { 0, 1, 2, 4, 7, 100, 301 };
+  std::size_t turn = 0; // any two of arrangement, spread and size together
+  bool flag = false;    // ids as an array or not, and both precisions, in turns
   for (const std::string& arrangement : arrangements())
   {
     for (const auto& [name, spread] : spreads())
     {
-      for (const std::size_t rows : std::vector<std::size_t>{ 0, 1, 2, 4, 7, 100, 301 })
+      for (int i = 0; i < 2; ++i)
       {
+        const std::size_t rows = sizes[turn++ % std::size(sizes)];
         SCOPED_TRACE(arrangement + ", " + name + ", " + std::to_string(rows));
         check(ranks, make_ids(arrangement, rows), spread, flag, !flag);
         flag = !flag;

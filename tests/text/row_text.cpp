@@ -103,7 +103,7 @@ TEST(DecodeRows, NumbersAsByParseDoubleToTheBit)
   {
     wanted.push_back({ i, ValueType::Float64 });
   }
-  const std::int64_t rows = numbers_to_try(1'000'000) / columns;
+  const std::int64_t rows = numbers_to_try(200'000) / columns;
   for (std::int64_t row = 0; row < rows && !HasFailure(); ++row)
   {
     std::string text(random() % 64, ' ');
@@ -164,7 +164,7 @@ TEST(DecodeRows, NumbersAmongTheirLike)
   Decimals decimals(1234);
   constexpr std::size_t limits[] = { 8, 16, 26, 27, 32, 40, 1000 };
   std::vector<std::string> alike[std::size(limits)];
-  const std::int64_t count = numbers_to_try(1'000'000);
+  const std::int64_t count = numbers_to_try(200'000);
   for (std::int64_t i = 0; i < count && !HasFailure(); ++i)
   {
     const std::string& word = decimals.next();
