@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -66,9 +65,9 @@ TEST_P(Gzip, EveryLevel)
   {
     expect_content(gzip(content, { level }), content);
   }
-  expect_content(gzip(content, { 6, Z_FIXED }), content);
-  expect_content(gzip(content, { 6, Z_HUFFMAN_ONLY }), content);
-  expect_content(gzip(content, { 6, Z_RLE }), content);
+  expect_content(gzip(content, { 1, Z_FIXED }), content);
+  expect_content(gzip(content, { 1, Z_HUFFMAN_ONLY }), content);
+  expect_content(gzip(content, { 1, Z_RLE }), content);
 }
 
 TEST_P(Gzip, Empty)
@@ -142,8 +141,7 @@ TEST_P(Gzip, CutAnywhereInAnyKind)
   {
     for (const int level : { 0, 1, 4, 9 })
     {
-      const std::size_t flush_every = std::array{ 0u, 37u, 250u }[turn++ % 3];
-      const std::string packed = gzip(content, { level, strategy, false, flush_every });
+      const std::string packed = gzip(content, { level, strategy, false, turn++ % 3 * 37 });
       std::size_t last = 0;
       for (std::size_t length = 3; length < packed.size(); ++length)
       {

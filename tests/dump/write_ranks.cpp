@@ -133,7 +133,8 @@ TEST(WriteRanks, compressed)
     const Written packed = write_dump(folder.path("packed"), frames, format);
     EXPECT_LT(packed.bytes.size(), plain.bytes.size() / 2);
     EXPECT_TRUE(packing::read_all(*packing::open(packed.bytes)) == plain.bytes);
-    expect_same(frames, format, { { 0, 13333, 1 }, { 5000, 1 } }, "packed");
+    const bool gzip = compression == Compression::Gzip;
+    expect_same(frames, format, { gzip ? Shares{ 0, 13333, 1 } : Shares{ 5000, 1 } }, "packed");
   }
 }
 

@@ -116,8 +116,7 @@ protected:
   /// Fails the calls of each rank in turn, of many calls only some. The case comes up on some rank.
   void FailEach(const FailingCase& one, const Use& use)
   {
-    const bool alone = this->Size() == 1;
-    const long most = alone ? (of_memory(one) ? 8 : 6) : 2;
+    const long most = this->Size() > 1 ? 2 : of_memory(one) ? 8 : 6;
     long delivered = 0;
     for (int rank = 0; rank < this->Size(); ++rank)
     {

@@ -436,9 +436,9 @@ TEST(PackingBonds, OfPiecesAndThreadsAreTheWhole)
   {
     const Bonds whole(request, 1.5);
     EXPECT_GT(whole.size(), 0u);
-    const bool small = whole.particles.size() < 1000;
+    const int many_pieces = whole.particles.size() < 1000 && turn % 3 == 0 ? 500 : 2;
     for (const int pieces :
-      { 1, 2 + ++turn % 4, small && turn % 3 == 0 ? 500 : 2 }) // 500: most with a particle or none
+      { 1, 2 + ++turn % 4, many_pieces }) // of 500 most have a particle or none
     {
       request.pieces = pieces;
       request.threads = 1 + pieces % 3;
