@@ -241,48 +241,19 @@ TEST_P(Gzip, ThrowsAgain)
   const std::string content = rows(3 << 20);
   std::string packed = gzip(content, { 1 });
   packed[packed.size() / 2] ^= 0x10;
-  const auto source = open(packed);
-  std::vector<char> buffer(1 << 20);
-  EXPECT_EQ(source->read(0, buffer.data(), 1000), 1000u);
-  std::string first;
-  for (const std::int64_t offset : { 2 << 20, 0, 3 << 20, 1 << 20, 1 << 30 })
-  {
-    try
-    {
-      read_all(*source, buffer.size(), offset); // to the checksum, where it may be seen first
-      FAIL() << offset;
-    }
-    catch (const granular::FormatError& error)
-    {
-      first = first.empty() ? error.what() : first;
-      EXPECT_EQ(error.what(), first);
-      EXPECT_GE(error.where().byte, static_cast<std::int64_t>(packed.size() / 2));
-    }
-  }
+  EXPECT_GE(packing::expect_same_error(packed), static_cast<std::int64_t>(packed.size() / 2));
 }
 
 TEST_P(Gzip, RandomReads)
 {
   const std::string content = rows(6 << 20, 5);
   packing::Medium medium{ gzip(content, { 1 }) };
-  const auto points = spaced(1 << 17);
-  packing::expect_random_reads(
-    *packing::unpack(packing::open_medium(medium), points), content, 600, 11);
+  const auto points = packing::expect_points_to_serve(medium, content, 11);
   const std::size_t found = points->points.size();
   EXPECT_GT(found, 20u);
   EXPECT_LE(found, 48u);
   EXPECT_GT(points->bytes(), found << 15);
   EXPECT_LT(points->bytes(), (found << 15) + (found << 8));
-
-  // Another source goes to the end at once, and finds no points that were not there.
-  medium.read = 0;
-  const auto again = packing::unpack(packing::open_medium(medium), points);
-  EXPECT_TRUE(read_all(*again, 1000, (6 << 20) - 5000) == content.substr((6 << 20) - 5000));
-  EXPECT_EQ(again->unchecked(), "");
-  EXPECT_LT(medium.read, 600000);
-  EXPECT_GT(medium.bytes.size(), 2000000u);
-  packing::expect_random_reads(*again, content, 150, 12);
-  EXPECT_EQ(points->points.size(), found);
 }
 
 TEST_P(Gzip, RandomReadsOfManyMembers)
@@ -339,37 +310,16 @@ TEST_P(Gzip, PointsOfAnotherFile)
 TEST_P(Gzip, GrowsBetweenTwoSources)
 {
   const std::string content = rows(3 << 20);
-  const std::string packed =
-    gzip(content.substr(0, 2 << 20), { 1 }) + gzip(content.substr(2 << 20));
-  const auto points = spaced(1 << 17);
-  std::size_t last = 0;
-  for (const std::size_t part : { 3u, 5u, 6u, 8u })
-  {
-    const auto source = open(std::string_view(packed).substr(0, packed.size() * part / 8), points);
-    const std::string text = read_all(*source, 1 << 16);
-    EXPECT_TRUE(text == content.substr(0, text.size()));
-    EXPECT_GT(text.size(), last);
-    EXPECT_EQ(source->unchecked(), part < 8 ? cut_text : "");
-    last = text.size();
-  }
-  EXPECT_EQ(last, content.size());
+  packing::expect_growth_between_sources(
+    gzip(content.substr(0, 2 << 20), { 1 }) + gzip(content.substr(2 << 20)), content, cut_text);
 }
 
 TEST_P(Gzip, GrowsWhileOpen)
 {
   const std::string content = rows(5000);
-  const std::string packed =
-    gzip(content.substr(0, 3000), { 6, 0, true }) + gzip(content.substr(3000), { 6, 0, true });
-  packing::Medium medium{ packed.substr(0, 3) };
-  const auto source = packing::unpack(packing::open_medium(medium));
-  std::string text;
-  for (std::size_t size = 4; size <= packed.size(); ++size)
-  {
-    medium.bytes = packed.substr(0, size);
-    text += read_all(*source, 100, static_cast<std::int64_t>(text.size()));
-  }
-  EXPECT_EQ(text, content);
-  EXPECT_EQ(source->unchecked(), "");
+  packing::expect_growth_while_open(
+    gzip(content.substr(0, 3000), { 6, 0, true }) + gzip(content.substr(3000), { 6, 0, true }),
+    content);
 }
 
 /// Readers of an index that is finished add nothing to it, wherever they stop.

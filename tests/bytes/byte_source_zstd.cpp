@@ -163,23 +163,7 @@ TEST(Zstd, ThrowsAgain)
 {
   std::string packed = zstd(rows(3 << 20));
   packed[packed.size() / 2] ^= 0x10;
-  const auto source = open(packed);
-  std::vector<char> buffer(1 << 20);
-  EXPECT_EQ(source->read(0, buffer.data(), 1000), 1000u);
-  std::string first;
-  for (const std::int64_t offset : { 2 << 20, 0, 3 << 20, 1 << 20, 1 << 30 })
-  {
-    try
-    {
-      read_all(*source, buffer.size(), offset);
-      FAIL() << offset;
-    }
-    catch (const granular::FormatError& error)
-    {
-      first = first.empty() ? error.what() : first;
-      EXPECT_EQ(error.what(), first);
-    }
-  }
+  packing::expect_same_error(packed);
 }
 
 /// However the file is read: the library looks at the size in the header only if it gets a frame at once.
@@ -232,20 +216,9 @@ TEST(Zstd, RandomReads)
 {
   const std::string content = rows(6 << 20, 5);
   packing::Medium medium{ packing::zstd_frames(content, 50000) };
-  const auto points = spaced(1 << 17);
-  packing::expect_random_reads(*unpack(packing::open_medium(medium), points), content, 600, 21);
-  const std::size_t found = points->points.size();
-  EXPECT_EQ(found, (content.size() - 1) / 150000); // every third frame
+  const auto points = packing::expect_points_to_serve(medium, content, 21);
+  EXPECT_EQ(points->points.size(), (content.size() - 1) / 150000); // every third frame
   EXPECT_EQ(points->bytes(), points->points.capacity() * sizeof(SeekPoints::Point));
-
-  medium.read = 0;
-  const auto again = unpack(packing::open_medium(medium), points);
-  EXPECT_TRUE(read_all(*again, 1000, (6 << 20) - 5000) == content.substr((6 << 20) - 5000));
-  EXPECT_EQ(again->unchecked(), "");
-  EXPECT_LT(medium.read, 600000);
-  EXPECT_GT(medium.bytes.size(), 2000000u);
-  packing::expect_random_reads(*again, content, 150, 22);
-  EXPECT_EQ(points->points.size(), found);
 }
 
 TEST(Zstd, RandomReadsOfOneFrame)
@@ -257,35 +230,14 @@ TEST(Zstd, RandomReadsOfOneFrame)
 TEST(Zstd, GrowsBetweenTwoSources)
 {
   const std::string content = rows(3 << 20);
-  const std::string packed = packing::zstd_frames(content, 200000);
-  const auto points = spaced(1 << 17);
-  std::size_t last = 0;
-  for (const std::size_t part : { 3u, 5u, 6u, 8u })
-  {
-    const auto source = open(std::string_view(packed).substr(0, packed.size() * part / 8), points);
-    const std::string text = read_all(*source, 1 << 16);
-    EXPECT_TRUE(text == content.substr(0, text.size()));
-    EXPECT_GT(text.size(), last);
-    EXPECT_EQ(source->unchecked(), part < 8 ? cut_text : "");
-    last = text.size();
-  }
-  EXPECT_EQ(last, content.size());
+  packing::expect_growth_between_sources(packing::zstd_frames(content, 200000), content, cut_text);
 }
 
 TEST(Zstd, GrowsWhileOpen)
 {
   const std::string content = rows(5000);
-  const std::string packed = zstd(content.substr(0, 3000)) + zstd(content.substr(3000));
-  packing::Medium medium{ packed.substr(0, 3) };
-  const auto source = unpack(packing::open_medium(medium));
-  std::string text;
-  for (std::size_t size = 4; size <= packed.size(); ++size)
-  {
-    medium.bytes = packed.substr(0, size);
-    text += read_all(*source, 100, static_cast<std::int64_t>(text.size()));
-  }
-  EXPECT_EQ(text, content);
-  EXPECT_EQ(source->unchecked(), "");
+  packing::expect_growth_while_open(
+    zstd(content.substr(0, 3000)) + zstd(content.substr(3000)), content);
 }
 
 TEST(Zstd, ManyPointsAreThinned)

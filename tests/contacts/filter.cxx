@@ -111,14 +111,7 @@ struct Filter : Watched<vtkGranularContactSums>
 
   static Values Of(vtkDataSetAttributes* data, const char* name)
   {
-    vtkDataArray* const array = data->GetArray(name);
-    Values values;
-    for (vtkIdType i = 0; array && i < array->GetNumberOfValues(); ++i)
-    {
-      values.push_back(array->GetComponent(
-        i / array->GetNumberOfComponents(), static_cast<int>(i % array->GetNumberOfComponents())));
-    }
-    return values;
+    return ValuesOf(data->GetArray(name));
   }
 };
 

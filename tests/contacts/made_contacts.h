@@ -3,9 +3,9 @@
 #ifndef granular_tests_contacts_made_contacts_h
 #define granular_tests_contacts_made_contacts_h
 
-#include "granular/common/error.h"
 #include "granular/contacts/contact_sums.h"
 
+#include "../support/error_of.h"
 #include "../support/thread_ranks.h"
 
 #include <algorithm>
@@ -362,15 +362,7 @@ inline Found sum_spread(const Scene& scene, int size, const Place& particles, co
 /// The text of the error, or none.
 inline std::string error_of(const Scene& scene, const ContactSumsRequest& request = everything())
 {
-  try
-  {
-    sum_all(scene, request);
-  }
-  catch (const granular::Error& error)
-  {
-    return error.what();
-  }
-  return {};
+  return ::error_of([&] { sum_all(scene, request); });
 }
 }
 #endif

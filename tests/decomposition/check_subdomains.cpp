@@ -2,6 +2,7 @@
 // What is required of subdomains: that they have bounds, do not overlap and leave no gaps.
 #include "granular/decomposition/subdomains.h"
 
+#include "../support/stop.h"
 #include "made_subdomains.h"
 
 #include <gtest/gtest.h>
@@ -38,27 +39,6 @@ std::string said_of(const Subdomains& subdomains, SubdomainChecks checks = {})
   EXPECT_TRUE(notices.empty());
   return error;
 }
-
-/// Reports, and stops at one of them.
-struct Counting : Progress
-{
-  explicit Counting(int end = 1'000'000)
-    : stop(end)
-  {
-  }
-
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, last);
-    EXPECT_LE(fraction, 1);
-    last = fraction;
-    return ++reports < stop;
-  }
-
-  double last = 0;
-  int reports = 0;
-  int stop;
-};
 
 /// Two cubes one behind the other.
 Subdomains pair_of_cubes()
@@ -259,13 +239,13 @@ TEST(CheckSubdomains, progress)
 {
   Notices notices;
   const Subdomains divided = made_bisection(200'000, 3);
-  Counting all;
+  Stop all;
   check_subdomains(divided, {}, {}, notices, all);
   EXPECT_GT(all.reports, 20);
   EXPECT_GT(all.last, 0.9);
   for (const int stop : { 1, all.reports / 2, all.reports })
   {
-    Counting progress(stop);
+    Stop progress(stop - 1);
     EXPECT_THROW(check_subdomains(divided, {}, {}, notices, progress), Cancelled);
     EXPECT_EQ(progress.reports, stop);
   }

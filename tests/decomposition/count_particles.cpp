@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in grids and in other subdomains, against every particle compared with every face.
 #include "granular/decomposition/count_particles.h"
+#include "../support/error_of.h"
 #include "../support/exact_units.h"
 #include "../support/hard_case.h"
 #include "counted_frames.h"
 #include "made_subdomains.h"
-
-#include "granular/common/error.h"
 
 #include <gtest/gtest.h>
 
@@ -267,15 +266,7 @@ TEST(CountInGrid, RefusesCutsThatAreNone)
   const auto error_of = [](std::vector<double> cuts)
   {
     ProcessGrid grid{ { { { 0, 1 }, std::move(cuts), { 0, 1 } } } };
-    try
-    {
-      count(frame_of({}), grid);
-    }
-    catch (const Error& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
+    return ::error_of([&] { count(frame_of({}), grid); });
   };
   const std::string expected = "expected finite cuts along y, none below the one before";
   EXPECT_EQ(error_of({ 0, 2, 1 }), expected);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which rows are counted, from points of all kinds; threads, progress and cancelling.
+#include "../support/stop.h"
 #include "counted_frames.h"
 #include "made_subdomains.h"
 
@@ -20,30 +21,6 @@ ProcessGrid two_halves()
 {
   return make_process_grid({ { 0, 0, 0 }, { 8, 1, 1 }, 0, { 2, 1, 1 }, {} });
 }
-
-/// Stops at a report.
-class Stop final : public Progress
-{
-public:
-  explicit Stop(int at)
-    : at_(at)
-  {
-  }
-
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, last_);
-    EXPECT_LE(fraction, 1);
-    last_ = fraction;
-    return reports++ != at_;
-  }
-
-  int reports = 0;
-
-private:
-  int at_;
-  double last_ = 0;
-};
 }
 
 TEST(CountedRows, DuplicatesAreLeftOut)
@@ -124,7 +101,7 @@ TEST(CountedRows, StopsAtEachReport)
   const Subdomains subdomains = made_bisection(5, 1);
   for (const int threads : { 1, 3 })
   {
-    Stop never(-1);
+    Stop never;
     count_in_grid(frame, two_halves(), Executor(threads), never);
     ASSERT_GT(never.reports, 0);
     for (int at = 0; at < (threads == 1 ? never.reports : 1); ++at)

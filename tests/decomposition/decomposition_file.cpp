@@ -3,6 +3,7 @@
 #include "grid_files.h"
 
 #include "../support/counting_source.h"
+#include "../support/stop.h"
 
 #include "granular/decomposition/vtu_grids.h"
 
@@ -20,18 +21,6 @@ std::string reflected(const std::string& place, int cells)
   return place + ": corners of " + std::to_string(cells) +
     " voxels are in the order of LIGGGHTS-INL, x and z exchanged: they were put right\n";
 }
-
-/// Keeps what is reported.
-struct Reports : granular::Progress
-{
-  bool report(double fraction) override
-  {
-    fractions.push_back(fraction);
-    return true;
-  }
-
-  std::vector<double> fractions;
-};
 
 std::string path_of(const std::string& file)
 {
@@ -335,17 +324,7 @@ TEST(DecompositionFile, ChangedSinceItWasIndexed)
 
 TEST(DecompositionFile, ReportsAndCanBeCancelled)
 {
-  struct Stop : granular::Progress
-  {
-    bool report(double fraction) override
-    {
-      last = fraction;
-      ++reports;
-      return fraction < 0.5;
-    }
-    double last = 0;
-    int reports = 0;
-  } stop;
+  Stop stop(Stop::never, 0.5);
   std::string text = two_boxes();
   text.insert(text.find("Z_COORD"), std::string(std::size_t{ 1 } << 27, ' '));
   const auto source = granular::open_memory(text);
@@ -360,12 +339,12 @@ TEST(DecompositionFile, ReportsAndCanBeCancelled)
   {
     text += "# vtk DataFile\n";
   }
-  Reports all;
+  Stop all;
   const auto headers = granular::open_memory(text);
   index = {};
   granular::decomposition_format().index(*headers, index, all, {});
-  EXPECT_EQ(all.fractions.size(), 2u);
-  EXPECT_NEAR(all.fractions.at(1), 0.8, 0.001);
+  EXPECT_EQ(all.reports, 2);
+  EXPECT_NEAR(all.last, 0.8, 0.001);
 }
 
 /// Of a file that is made of headers no more than some are named, and none is read from the file again.

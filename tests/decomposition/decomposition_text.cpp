@@ -2,6 +2,8 @@
 // The text of decompositions: the bytes of LIGGGHTS, and those that VTK's own writer makes of the same cells.
 #include "granular/decomposition/decomposition_text.h"
 
+#include "../support/error_of.h"
+#include "../support/stop.h"
 #include "made_subdomains.h"
 
 #include <gtest/gtest.h>
@@ -128,35 +130,21 @@ TEST(EncodeGrid, six_decimals)
   // a particle of a micrometre
   EXPECT_NE(
     said_of({ 0, 1e-7, 2e-7, 3e-7, 1 }).find("; 3 of 4 slabs become flat"), std::string::npos);
-  try
-  {
-    said_of({ 0, 1e-7, 2e-7, 3e-7, 4e-7 });
-    ADD_FAILURE() << "expected an error";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_EQ(error.text(),
-      "expected a box that six decimals, which is what LIGGGHTS-PUBLIC writes, do not make flat, "
-      "got "
-      "one with a length of 4e-07 along x; the dialect INL keeps all digits");
-  }
+  EXPECT_EQ(error_of(
+              [] {
+                said_of({ 0, 1e-7, 2e-7, 3e-7, 4e-7 });
+              }),
+    "expected a box that six decimals, which is what LIGGGHTS-PUBLIC writes, do not make flat, got "
+    "one with a length of 4e-07 along x; the dialect INL keeps all digits");
 }
 
 TEST(EncodeGrid, no_grid)
 {
   Subdomains subdomains = settling();
   subdomains[1].hi[2] = subdomains[3].lo[2] = 0.08;
-  try
-  {
-    grid_of(subdomains);
-    ADD_FAILURE() << "expected an error";
-  }
-  catch (const UnsupportedError& error)
-  {
-    EXPECT_STREQ(error.what(),
-      "expected subdomains that form a grid, which is all that a rectilinear grid can hold, got 4 "
-      "that do not");
-  }
+  EXPECT_EQ(error_of<UnsupportedError>([&] { grid_of(subdomains); }),
+    "expected subdomains that form a grid, which is all that a rectilinear grid can hold, got 4 "
+    "that do not");
   EXPECT_THROW(grid_of({}), UnsupportedError);
 }
 
@@ -221,32 +209,16 @@ TEST(EncodeVoxels, arrays)
 
 TEST(EncodeVoxels, a_million)
 {
-  struct Steps : Progress
-  {
-    bool report(double fraction) override
-    {
-      rising = rising && fraction >= last && fraction <= 1;
-      last = fraction;
-      ++count;
-      return count != stop;
-    }
-    bool rising = true;
-    double last = 0;
-    int count = 0;
-    int stop = 0;
-  };
   const Decomposition many = { made_grid({ 1000, 1000, 1 }) };
-  Steps steps;
-  const std::string text = encode_voxels(many, steps);
+  Stop all;
+  const std::string text = encode_voxels(many, all);
   EXPECT_NE(text.find("CELLS 1000000 9000000\n"), std::string::npos);
   EXPECT_NE(text.find("\n8 7999992 7999996 7999994 7999998 7999993 7999997 7999995 7999999 \n\n"),
     std::string::npos);
-  EXPECT_TRUE(steps.rising);
-  EXPECT_EQ(steps.last, 1);
-  for (const int stop : { 1, 2, steps.count })
+  EXPECT_EQ(all.last, 1);
+  for (const int reports : { 1, 2, all.reports })
   {
-    Steps stopped;
-    stopped.stop = stop;
+    Stop stopped(reports - 1);
     EXPECT_THROW(encode_voxels(many, stopped), Cancelled);
   }
 }

@@ -3,7 +3,7 @@
 #include "granular/decomposition/process_grid.h"
 #include "made_subdomains.h"
 
-#include "granular/common/error.h"
+#include "../support/error_of.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,7 @@ GridRequest unit_cube(std::array<int, 3> grid, std::int64_t processes = 0)
 
 std::string error_of(const GridRequest& request)
 {
-  try
-  {
-    make_process_grid(request);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
+  return ::error_of([&] { make_process_grid(request); });
 }
 }
 

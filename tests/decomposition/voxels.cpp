@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/decomposition/voxels.h"
 
+#include "../support/stop.h"
 #include "made_subdomains.h"
 
 #include <gtest/gtest.h>
@@ -151,26 +152,12 @@ TEST(MakeVoxels, threads)
 
 TEST(MakeVoxels, tells_and_stops)
 {
-  struct Stop : Progress
-  {
-    bool report(double fraction) override
-    {
-      EXPECT_GE(fraction, last);
-      EXPECT_LE(fraction, 1);
-      last = fraction;
-      return ++reports < most;
-    }
-    double last = 0;
-    int reports = 0;
-    int most = 1'000'000;
-  };
   const Subdomains subdomains = made_bisection(200'000, 4);
   Stop all;
   make_voxels(subdomains, { 1, 0, 0 }, Executor(1), all);
   EXPECT_GT(all.reports, 10);
   EXPECT_GT(all.last, 0.9);
-  Stop half;
-  half.most = all.reports / 2;
+  Stop half(all.reports / 2);
   EXPECT_THROW(make_voxels(subdomains, { 1, 0, 0 }, Executor(1), half), Cancelled);
 }
 

@@ -8,6 +8,7 @@
 #include "../support/dumps.h"
 #include "../support/resident_memory.h"
 #include "../support/sparse_file.h"
+#include "../support/stop.h"
 
 #include <gtest/gtest.h>
 
@@ -21,28 +22,6 @@ namespace
 {
 using binary::Form;
 using binary::Frame;
-
-/// Stops a task after some reports.
-class Stop final : public granular::Progress
-{
-public:
-  explicit Stop(int reports)
-    : left_(reports)
-  {
-  }
-
-  bool report(double fraction) override
-  {
-    fraction_ = fraction;
-    return --left_ > 0;
-  }
-
-  double fraction() const { return fraction_; }
-
-private:
-  int left_;
-  double fraction_ = 0;
-};
 
 granular::IndexOptions names()
 {
@@ -145,9 +124,9 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   granular::DumpRequest request;
   request.stride = 1 << 30;
   request.wanted = [](const granular::ArrayInfo&) { return false; };
-  Stop stop(4);
+  Stop stop(3);
   EXPECT_THROW(read_dump(index.pieces(0), request, notices, stop), granular::Cancelled);
-  EXPECT_GT(stop.fraction(), 0);
-  EXPECT_LT(stop.fraction(), 0.1);
+  EXPECT_GT(stop.last, 0);
+  EXPECT_LT(stop.last, 0.1);
   EXPECT_LT(peak_bytes() - before, std::int64_t{ 1 } << 28);
 }

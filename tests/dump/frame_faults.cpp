@@ -6,6 +6,7 @@
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
 #include "../support/series.h"
+#include "../support/stop.h"
 
 #include <gtest/gtest.h>
 
@@ -501,35 +502,6 @@ TEST(FrameFaults, TheFirstPieceThatIsWrongIsNamed)
 
 // ---- stopped -----------------------------------------------------------------------------------
 
-namespace
-{
-/// Stops at a report.
-class Stop final : public Progress
-{
-public:
-  explicit Stop(int at)
-    : at_(at)
-  {
-  }
-
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, last_);
-    EXPECT_LE(fraction, 1);
-    last_ = fraction;
-    return ++reports_ <= at_;
-  }
-
-  int reports() const { return reports_; }
-  double last() const { return last_; }
-
-private:
-  int at_;
-  int reports_ = 0;
-  double last_ = 0;
-};
-}
-
 TEST(FrameFaults, StoppedAtEveryReport)
 {
   const Dump dump(with_rows(3, "9 2.5 0 0 0 wet", 50, ""));
@@ -549,9 +521,9 @@ TEST(FrameFaults, StoppedAtEveryReport)
         const Outcome outcome = outcome_of([&](const DumpRequest& asked, Notices&)
           { return dump.read(asked, 0, stop).frame; },
           small);
-        stopped = stop.reports() > at;
+        stopped = stop.reports > at;
         EXPECT_EQ(outcome.error, stopped ? "cancelled" : "");
-        EXPECT_TRUE(stopped || stop.last() == 1);
+        EXPECT_TRUE(stopped || stop.last == 1);
         EXPECT_EQ(outcome_of(reading(dump), small).difference(whole), "");
       }
       EXPECT_GT(at, 2);

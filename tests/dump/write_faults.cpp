@@ -3,6 +3,7 @@
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
 #include "../support/small_disk.h"
+#include "../support/stop.h"
 #include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
@@ -54,28 +55,6 @@ void expect_error(const std::vector<Frames>& ranks, const DumpFormat& format,
     }
   }
 }
-
-/// Stops at a report.
-class StopAt final : public Progress
-{
-public:
-  explicit StopAt(int report)
-    : left_(report)
-  {
-  }
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, 0);
-    EXPECT_LE(fraction, 1);
-    EXPECT_GE(fraction, last_) << "progress does not go back";
-    last_ = fraction;
-    return left_-- != 0;
-  }
-
-private:
-  int left_;
-  double last_ = 0;
-};
 
 class CountReports final : public Progress
 {
@@ -270,7 +249,9 @@ TEST(WriteFaults, cancelled)
         for (int report = 0; report < 2; ++report)
         {
           const Written written = write_dump(folder.path("old"), three.ranks(), format, { mode, 2 },
-            [&](int rank) { return std::make_unique<StopAt>(rank == stopped ? report : -1); });
+            [&](int rank) {
+              return rank == stopped ? std::make_unique<Stop>(report) : std::make_unique<Stop>();
+            });
           EXPECT_EQ(written.error, "cancelled") << report << " on " << stopped;
           EXPECT_EQ(written.bytes, old_content);
           EXPECT_EQ(names_in(folder.path("")), "new old");
@@ -288,7 +269,6 @@ TEST(WriteFaults, cancelled_at_each_report)
   {
     DumpFormat format;
     format.sort_by_id = sorted;
-    std::atomic<int> reports = 0;
     const Folder folder;
     const auto write = [&](Progress& progress)
     {
@@ -298,18 +278,18 @@ TEST(WriteFaults, cancelled_at_each_report)
       writer.write(rows.view(), notices, progress);
       writer.finish();
     };
-    CountReports count(reports);
-    write(count);
+    Stop all;
+    write(all);
     folder.write("old", old_content);
-    ASSERT_GT(reports, 10);
-    for (int report = 0; report < reports; ++report)
+    ASSERT_GT(all.reports, 10);
+    for (int report = 0; report < all.reports; ++report)
     {
-      StopAt stop(report);
+      Stop stop(report);
       EXPECT_THROW(write(stop), Cancelled) << report;
       EXPECT_EQ(bytes_of_file(folder.path("old")), old_content);
       EXPECT_EQ(names_in(folder.path("")), "old");
     }
-    StopAt late(reports);
+    Stop late(all.reports);
     write(late);
   }
 }

@@ -2,6 +2,7 @@
 // Averages where numbers are difficult, missing or wrong.
 #include "made_particles.h"
 
+#include "../support/error_of.h"
 #include "../support/hard_case.h"
 #include "../support/quad.h"
 
@@ -20,15 +21,7 @@ constexpr EulerGrid unit_cell = { { 0, 0, 0 }, { 1, 1, 1 }, { 1, 1, 1 } };
 
 std::string error_of(const FrameView& frame, const EulerAverageRequest& request)
 {
-  try
-  {
-    average(frame, request);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "none";
+  return ::error_of([&] { average(frame, request); });
 }
 }
 
@@ -116,7 +109,7 @@ TEST(EulerAverageHard, CellsOneUlpThick)
     // 64 particles, each of which is cut through its middle: a disc of radius 1/4 in a face of 1
     EXPECT_NEAR(overlap.volume_fraction[i], 64 * 3.14159265358979324 / 16, 1e-11);
   }
-  EXPECT_EQ(error_of({}, request_for(grid, CellWeights::Centre)), "none");
+  EXPECT_EQ(error_of({}, request_for(grid, CellWeights::Centre)), "");
   EXPECT_THROW(make_euler_grid({ lo, hi, EulerGridRequest::By::Counts, { 100, 1, 1 }, {} }), Error);
 }
 
@@ -365,18 +358,8 @@ TEST(EulerAverageHard, GridsThatDoNotFitAreRefusedBeforeAnythingIsAllocated)
 
 TEST(EulerAverageHard, GridsThatAreNoneAreErrors)
 {
-  const auto error = [](const EulerGridRequest& request) -> std::string
-  {
-    try
-    {
-      make_euler_grid(request);
-    }
-    catch (const Error& caught)
-    {
-      return caught.what();
-    }
-    return "none";
-  };
+  const auto error = [](const EulerGridRequest& request)
+  { return ::error_of([&] { make_euler_grid(request); }); };
   using By = EulerGridRequest::By;
   const Vector3 lo = { 0, 0, 0 };
   const Vector3 hi = { 1, 1, 1 };

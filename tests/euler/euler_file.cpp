@@ -3,6 +3,7 @@
 #include "euler_files.h"
 
 #include "../support/byte_source_packing.h"
+#include "../support/stop.h"
 
 #include "granular/bytes/byte_source_unpack.h"
 #include "granular/decomposition/decomposition_file.h"
@@ -301,17 +302,7 @@ TEST(EulerFile, Compressed)
 
 TEST(EulerFile, ReportsAndCanBeCancelled)
 {
-  struct Stop : Progress
-  {
-    bool report(double fraction) override
-    {
-      last = fraction;
-      ++reports;
-      return fraction < 0.5;
-    }
-    double last = 0;
-    int reports = 0;
-  } stop;
+  Stop stop(Stop::never, 0.5);
   std::string text = two_points();
   text.insert(text.find("SCALARS radius"), std::string(std::size_t{ 1 } << 25, ' '));
   const auto source = open_memory(text);

@@ -2,6 +2,7 @@
 // The text of Euler cells: the bytes of LIGGGHTS, those of printf, and all digits.
 #include "granular/euler/euler_text.h"
 
+#include "../support/stop.h"
 #include "euler_files.h"
 
 #include <gtest/gtest.h>
@@ -273,41 +274,20 @@ TEST(EncodeEuler, six_decimals_may_be_few)
   }
   Notices notices;
   Progress progress;
-  try
-  {
-    encode_euler(cells, EulerDialect::Liggghts, notices, progress);
-    FAIL();
-  }
-  catch (const Error& error)
-  {
-    EXPECT_EQ(error.text(),
-      "expected cells that six decimals, which is what LIGGGHTS writes, tell apart, got 2 places "
-      "of "
-      "centres along z that all become one; the dialect Wide keeps all digits");
-  }
+  EXPECT_EQ(error_of([&] { encode_euler(cells, EulerDialect::Liggghts, notices, progress); }),
+    "expected cells that six decimals, which is what LIGGGHTS writes, tell apart, got 2 places of "
+    "centres along z that all become one; the dialect Wide keeps all digits");
 }
 
 TEST(EncodeEuler, reports_and_can_be_cancelled)
 {
-  struct Stop : Progress
-  {
-    bool report(double fraction) override
-    {
-      EXPECT_GE(fraction, last);
-      last = fraction;
-      ++reports;
-      return fraction <= limit;
-    }
-    double limit = 1;
-    double last = 0;
-    int reports = 0;
-  } progress;
+  Stop progress;
   EulerCells cells;
   cells.resize(100'000);
   Notices notices;
   encode_euler(cells, EulerDialect::Liggghts, notices, progress);
   EXPECT_EQ(progress.last, 1);
   EXPECT_GT(progress.reports, 20);
-  progress.limit = progress.last = 0;
-  EXPECT_THROW(encode_euler(cells, EulerDialect::Liggghts, notices, progress), Cancelled);
+  Stop at_once(0);
+  EXPECT_THROW(encode_euler(cells, EulerDialect::Liggghts, notices, at_once), Cancelled);
 }

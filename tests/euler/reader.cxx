@@ -5,6 +5,7 @@
 
 #include "../dump/writer_helpers.h"
 #include "../support/observer.h"
+#include "../support/vtk_arrays.h"
 #include "made_files.h"
 
 #include "vtkCellData.h"
@@ -18,7 +19,6 @@
 #include <cmath>
 #include <map>
 #include <sstream>
-#include <utility>
 
 namespace
 {
@@ -51,20 +51,6 @@ struct CellReader : Watched<vtkGranularEulerReader>
   vtkImageData* Image() { return this->As<vtkImageData>(); }
   vtkPartitionedDataSet* Blocks() { return this->As<vtkPartitionedDataSet>(); }
 
-  /// All that was said, without the place in the sources that VTK puts before it.
-  Texts TakeSaid()
-  {
-    Texts texts;
-    for (std::string text : std::exchange(this->Seen->Said, {}))
-    {
-      const std::size_t start = text.find("): ");
-      text.erase(0, start == std::string::npos ? 0 : start + 3);
-      text.erase(text.find_last_not_of('\n') + 1);
-      texts.push_back(text);
-    }
-    return texts;
-  }
-
   void ExpectError(const std::string& text)
   {
     EXPECT_NE(this->Get->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
@@ -94,17 +80,9 @@ std::string Write(const std::string& name, const std::vector<Place>& centres)
 
 std::vector<double> Numbers(vtkFieldData* data, const char* name)
 {
-  std::vector<double> values;
   vtkDataArray* array = data->GetArray(name);
   EXPECT_TRUE(array) << name;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
-    {
-      values.push_back(array->GetComponent(i, component));
-    }
-  }
-  return values;
+  return ValuesOf(array);
 }
 
 TEST(EulerReader, Points)

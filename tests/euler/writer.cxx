@@ -2,6 +2,7 @@
 // What vtkGranularEulerWriter writes of which data, under which names, and what it refuses.
 #include "vtkGranularEulerWriter.h"
 
+#include "../support/vtk_arrays.h"
 #include "../support/whole_file_writers.h"
 #include "made_files.h"
 
@@ -29,14 +30,7 @@ template <class Array = vtkDoubleArray>
 void AddValues(
   vtkDataSetAttributes* data, const char* name, int components, const std::vector<double>& values)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  for (const double value : values)
-  {
-    array->InsertNextValue(static_cast<typename Array::ValueType>(value));
-  }
-  data->AddArray(array);
+  data->AddArray(MakeArray<Array>(name, values, components));
 }
 
 /// The values that EulerText writes, of cells from the first on.

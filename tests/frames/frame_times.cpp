@@ -2,6 +2,8 @@
 // One clock for dumps with ITEM: TIME and for those with TimestepSize.
 #include "granular/frames/frame_times.h"
 
+#include "../support/error_of.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -130,17 +132,12 @@ TEST(FrameTimes, NegativeTimestepsToo)
 
 TEST(FrameTimes, InfiniteTimesAreAnError)
 {
-  try
-  {
-    times_of(steps({ 0, 1000, 1000000000 }), 1e300);
-    FAIL() << "no error";
-  }
-  catch (const Error& error)
-  {
-    EXPECT_STREQ(error.what(),
-      "a.dump: expected a TimestepSize that gives finite times, got 1e+300: timestep 1000000000 is "
-      "at infinity; set TimestepSize to the time of one timestep");
-  }
+  EXPECT_EQ(error_of(
+              [] {
+                times_of(steps({ 0, 1000, 1000000000 }), 1e300);
+              }),
+    "a.dump: expected a TimestepSize that gives finite times, got 1e+300: timestep 1000000000 is "
+    "at infinity; set TimestepSize to the time of one timestep");
   EXPECT_EQ(times_of(steps({ 0, 1000 }), 1e300).times, (std::vector<double>{ 0, 1e303 }));
 }
 

@@ -6,6 +6,7 @@
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 #include "../support/series.h"
+#include "../support/stop.h"
 #include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
@@ -77,21 +78,6 @@ struct Rank
   RunIndex index;
 };
 
-/// Counts what a rank is told of its progress.
-class Counting final : public Progress
-{
-public:
-  bool report(double fraction) override
-  {
-    ++reports;
-    last = fraction;
-    return true;
-  }
-
-  int reports = 0;
-  double last = 0;
-};
-
 constexpr int ranks_of_tests = 3;
 
 /// A run with files that are no dumps among those that are.
@@ -151,7 +137,7 @@ TEST(IndexRanks, NewFilesAreLookedThroughByAll)
     [&](Communicator& communicator)
     {
       Rank rank(communicator);
-      Counting progress;
+      Stop progress;
       EXPECT_EQ(rank.update(files, { .format = &granular::dump_format() }, progress),
         communicator.rank() == 0 ? alone.said : "");
       EXPECT_GT(progress.reports, 0);
@@ -164,7 +150,7 @@ TEST(IndexRanks, NewFilesAreLookedThroughByAll)
       other.index.decode(alone.index.encode());
       EXPECT_EQ(rank.frames(), other.frames());
       // what is known is looked through by none
-      Counting quiet;
+      Stop quiet;
       rank.update(files, { .format = &granular::dump_format() }, quiet);
       EXPECT_EQ(quiet.reports > 0, communicator.rank() == 0);
       // files that come are looked through by all, others stay
@@ -179,7 +165,7 @@ TEST(IndexRanks, NewFilesAreLookedThroughByAll)
         }
       }
       communicator.agree({});
-      Counting again;
+      Stop again;
       rank.update(more, { .format = &granular::dump_format() }, again);
       EXPECT_GT(again.reports, 0);
       EXPECT_EQ(rank.index.size(), 44u + ranks_of_tests);
@@ -301,11 +287,6 @@ TEST(IndexRanks, AllHearWhatIsWrong)
 
 TEST(IndexRanks, CancelledOnAll)
 {
-  class Stop final : public Progress
-  {
-  public:
-    bool report(double) override { return false; }
-  };
   const Folder folder;
   const Files files = mixed_run(folder);
   run_ranks(ranks_of_tests,
@@ -313,7 +294,7 @@ TEST(IndexRanks, CancelledOnAll)
     {
       Rank rank(communicator);
       Notices notices;
-      Stop stop;
+      Stop stop(0);
       EXPECT_THROW(granular::update_run_index(rank.index, rank.ranks, files,
                      { .format = &granular::dump_format() }, notices, stop),
         granular::Cancelled);

@@ -9,6 +9,7 @@
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 #include "../support/series.h"
+#include "../support/stop.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,6 @@
 #include <fstream>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <sys/resource.h>
@@ -158,30 +158,6 @@ Files mixed_run(const Folder& folder)
   }
   return files;
 }
-
-/// Stops after some reports; makes sure of whose they are.
-class Stop final : public Progress
-{
-public:
-  explicit Stop(int after)
-    : left_(after)
-  {
-  }
-
-  bool report(double fraction) override
-  {
-    EXPECT_EQ(std::this_thread::get_id(), caller_);
-    EXPECT_GE(fraction, last_);
-    EXPECT_LE(fraction, 1);
-    last_ = fraction;
-    return left_-- > 0;
-  }
-
-private:
-  std::thread::id caller_ = std::this_thread::get_id();
-  int left_;
-  double last_ = 0;
-};
 }
 
 TEST(IndexThreads, ManyFilesOfAllSorts)

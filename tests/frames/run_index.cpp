@@ -5,6 +5,7 @@
 
 #include "../support/byte_source_packing.h"
 #include "../support/series.h"
+#include "../support/stop.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using granular::Notices;
-using granular::Progress;
 using granular::RunIndex;
 using Times = std::vector<double>;
 
@@ -398,23 +398,6 @@ TEST(RunIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
 
 TEST(RunIndex, CancelledAtAnyReportThenWhole)
 {
-  class Stop final : public Progress
-  {
-  public:
-    explicit Stop(int after)
-      : left_(after)
-    {
-    }
-    bool report(double fraction) override
-    {
-      EXPECT_GE(fraction, 0);
-      EXPECT_LE(fraction, 1);
-      return left_-- > 0;
-    }
-
-  private:
-    int left_;
-  };
   const Folder folder;
   const Files files = { folder.write("a.dump", frame(0)), folder.write("b.dump", frame(100)),
     folder.write("c.dump", frame(200)) };

@@ -107,19 +107,7 @@ struct Filter : Watched<vtkGranularLocalJoin>
   vtkPolyData* Lines() { return this->Get->GetOutput(); }
   vtkDataArray* Cells(const char* name) { return this->Lines()->GetCellData()->GetArray(name); }
 
-  Values ValuesOf(const char* name)
-  {
-    Values values;
-    vtkDataArray* array = this->Cells(name);
-    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-    {
-      for (int k = 0; k < array->GetNumberOfComponents(); ++k)
-      {
-        values.push_back(array->GetComponent(i, k));
-      }
-    }
-    return values;
-  }
+  Values ValuesOf(const char* name) { return ::ValuesOf(this->Cells(name)); }
 
   /// x of both ends of each line.
   Values Xs()
@@ -134,18 +122,6 @@ struct Filter : Watched<vtkGranularLocalJoin>
       xs.push_back(this->Lines()->GetPoint(ends->GetId(1))[0]);
     }
     return xs;
-  }
-
-  /// That nothing was said, or one thing with this in it.
-  void ExpectSaid(const std::string& text)
-  {
-    ASSERT_EQ(this->Seen->Said.size(), text.empty() ? 0u : 1u)
-      << text << (this->Seen->Said.empty() ? "" : ": " + this->Seen->Said[0]);
-    if (!text.empty())
-    {
-      EXPECT_NE(this->Seen->Said[0].find(text), std::string::npos) << this->Seen->Said[0];
-    }
-    this->Seen->Said.clear();
   }
 
   vtkNew<vtkTrivialProducer> Inputs[2];

@@ -6,6 +6,7 @@
 
 #include "../support/hard_case.h"
 #include "../support/quad.h"
+#include "../support/stop.h"
 #include "text_frames.h"
 
 #include <gtest/gtest.h>
@@ -528,26 +529,6 @@ TEST(Lines, ThreadsChangeNothing)
   }
 }
 
-class Stopping final : public Progress
-{
-public:
-  explicit Stopping(int steps)
-    : steps_(steps)
-  {
-  }
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, last_);
-    EXPECT_LE(fraction, 1);
-    last_ = fraction;
-    return steps_-- > 0;
-  }
-
-private:
-  int steps_;
-  double last_ = 0;
-};
-
 TEST(Lines, CanBeStopped)
 {
   const std::vector<double> ends(3 * 100000, 1.);
@@ -555,10 +536,10 @@ TEST(Lines, CanBeStopped)
   request.periodic = PeriodicLines::Split;
   for (const int steps : { 0, 1, 9 })
   {
-    Stopping progress(steps);
+    Stop progress(steps);
     EXPECT_THROW(granular::make_lines(ends, ends, ten, request, progress), granular::Cancelled);
   }
-  Stopping progress(1000);
+  Stop progress(1000);
   EXPECT_EQ(granular::make_lines(ends, ends, ten, request, progress).count, 100000);
 }
 

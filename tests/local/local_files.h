@@ -3,6 +3,8 @@
 #ifndef granular_tests_local_local_files_h
 #define granular_tests_local_local_files_h
 
+#include "../support/error_of.h"
+
 #include "granular/local/local_columns.h"
 #include "granular/local/local_file.h"
 #include "granular/local/local_reader.h"
@@ -35,21 +37,6 @@ inline std::string write_text(const std::string& name, const std::string& text)
   std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << text;
   return path.string();
-}
-
-/// The message of what is thrown, or "".
-template <class Work>
-std::string error_of(const Work& work)
-{
-  try
-  {
-    work();
-  }
-  catch (const granular::Error& error)
-  {
-    return error.what();
-  }
-  return "";
 }
 
 /// A run of local data.

@@ -5,6 +5,7 @@
 #include "../dump/reader_helpers.h"
 #include "../support/many_columns.h"
 #include "../support/observer.h"
+#include "../support/vtk_arrays.h"
 #include "local_files.h"
 
 #include "vtkCellArray.h"
@@ -20,12 +21,10 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <utility>
 
 namespace
 {
 using Texts = std::vector<std::string>;
-using Values = std::vector<double>;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 struct LinesReader : Watched<vtkGranularLocalReader>
@@ -93,46 +92,17 @@ struct LinesReader : Watched<vtkGranularLocalReader>
     return { steps, steps + info->Length(Pipeline::TIME_STEPS()) };
   }
 
-  /// What was said since the last call, without the place in the sources that VTK puts before it.
-  Texts Said()
-  {
-    Texts texts;
-    for (std::string text : std::exchange(this->Seen->Said, {}))
-    {
-      const std::size_t start = text.find("): ");
-      text.erase(0, start == std::string::npos ? 0 : start + 3);
-      text.erase(text.find_last_not_of('\n') + 1);
-      texts.push_back(text);
-    }
-    return texts;
-  }
-
   /// One error, and nothing in the outputs.
   void ExpectError(const std::string& text)
   {
     this->Get->Update();
     EXPECT_NE(this->Get->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
-    EXPECT_EQ(this->Said(), Texts{ text });
+    EXPECT_EQ(this->TakeSaid(), Texts{ text });
     EXPECT_EQ(this->Lines()->GetNumberOfCells(), 0);
     EXPECT_EQ(this->Rows()->GetNumberOfRows(), 0);
     EXPECT_EQ(this->Rows()->GetNumberOfColumns(), 0);
   }
 };
-
-Values ValuesOf(vtkAbstractArray* array)
-{
-  Values values;
-  auto* numbers = vtkDataArray::SafeDownCast(array);
-  EXPECT_TRUE(numbers);
-  for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
-  {
-    for (int component = 0; component < numbers->GetNumberOfComponents(); ++component)
-    {
-      values.push_back(numbers->GetComponent(i, component));
-    }
-  }
-  return values;
-}
 
 Values Field(vtkDataObject* data, const char* name)
 {
@@ -156,7 +126,7 @@ TEST(LocalReaderVtk, BothOutputs)
 {
   LinesReader reader({ Write(FullNames, FullRows) });
   reader->Update();
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
   vtkPolyData* lines = reader.Lines();
   ASSERT_EQ(lines->GetNumberOfLines(), 2);
   ASSERT_EQ(lines->GetNumberOfCells(), 2);
@@ -231,7 +201,7 @@ TEST(LocalReaderVtk, WithoutABox)
       EXPECT_FALSE(reader.Rows()->GetFieldData()->GetAbstractArray(name)) << name;
     }
   }
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 TEST(LocalReaderVtk, EveryPreset)
@@ -274,7 +244,7 @@ TEST(LocalReaderVtk, EveryPreset)
       reader->SetPreset(each.preset);
       EXPECT_EQ(reader->GetPreset(), each.preset);
       reader->Update();
-      EXPECT_EQ(reader.Said(), Texts{});
+      EXPECT_EQ(reader.TakeSaid(), Texts{});
       EXPECT_EQ(reader.Names(true), (index ? "index " : "") + std::string(each.table));
       EXPECT_EQ(reader.Points(), each.points);
       const auto* id2 = vtkTypeInt64Array::SafeDownCast(reader.Rows()->GetColumnByName("id2"));
@@ -294,7 +264,8 @@ TEST(LocalReaderVtk, WrongPresetIsAnErrorAndChangesNothing)
   for (const int wrong : { -5, 1000 })
   {
     reader->SetPreset(wrong);
-    EXPECT_EQ(reader.Said(), Texts{ "Preset must be from 0 to 12, got " + std::to_string(wrong) });
+    EXPECT_EQ(
+      reader.TakeSaid(), Texts{ "Preset must be from 0 to 12, got " + std::to_string(wrong) });
     EXPECT_EQ(reader->GetPreset(), vtkGranularLocalReader::BONDS);
   }
 }
@@ -317,7 +288,7 @@ TEST(LocalReaderVtk, ColumnMap)
   EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
   EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), Values{ 7 });
   EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id2")), Values{ 8 });
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
   // it goes before the preset, and gives way to it when it is empty
   reader->SetPreset(vtkGranularLocalReader::WALL_CONTACTS);
   reader->Update();
@@ -325,7 +296,7 @@ TEST(LocalReaderVtk, ColumnMap)
   reader->SetColumnMap(nullptr);
   reader->Update();
   EXPECT_EQ(reader.Names(), "mesh triangle id2 length");
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 TEST(LocalReaderVtk, PresetIsChangedAfterwards)
@@ -343,7 +314,7 @@ TEST(LocalReaderVtk, PresetIsChangedAfterwards)
   reader->Update();
   EXPECT_EQ(reader.Names(true), "c_a");
   EXPECT_EQ(reader.Rows()->GetColumnByName("c_a") ? 1 : 0, 1);
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 TEST(LocalReaderVtk, Errors)
@@ -371,7 +342,7 @@ TEST(LocalReaderVtk, Errors)
   reader->Update();
   EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 2);
   EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 TEST(LocalReaderVtk, ErrorsOfRows)
@@ -426,7 +397,7 @@ TEST(LocalReaderVtk, ArraysThatAreRead)
   reader->Update();
   EXPECT_EQ(reader.Names(), "length");
   EXPECT_EQ(reader.Points().size(), 12u);
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 // From 9.5 to 0.5: once around.
@@ -460,7 +431,7 @@ TEST(LocalReaderVtk, PeriodicLines)
   EXPECT_FALSE(reader.Cells("row"));
   EXPECT_FALSE(reader.Cells("part"));
   reader->SetPointOrigin(std::numeric_limits<double>::infinity(), 0, 0);
-  reader.Said();
+  reader.TakeSaid();
   reader.ExpectError("PointOrigin must be finite");
 }
 
@@ -473,14 +444,14 @@ TEST(LocalReaderVtk, ColumnsNamedLikeArraysOfLines)
   reader->Update();
   const std::string length =
     path + ":1: lines have an array 'length' of their own: that of the file is 'length_3'";
-  EXPECT_EQ(reader.Said(), Texts{ length });
+  EXPECT_EQ(reader.TakeSaid(), Texts{ length });
   EXPECT_EQ(reader.Names(), "length_3 length_2 row part length");
   EXPECT_EQ(ValuesOf(reader.Cells("length")), (Values{ 1, 1 }));
   EXPECT_EQ(ValuesOf(reader.Cells("length_3")), (Values{ 10, 11 }));
   EXPECT_EQ(ValuesOf(reader.Cells("row")), (Values{ 30, 31 }));
   reader->SetPeriodicLines(vtkGranularLocalReader::SPLIT);
   reader->Update();
-  EXPECT_EQ(reader.Said().size(), 1u); // of row and part
+  EXPECT_EQ(reader.TakeSaid().size(), 1u); // of row and part
   EXPECT_EQ(reader.Names(), "length_3 length_2 row_2 part_2 row part length");
   EXPECT_EQ(ValuesOf(reader.Cells("row")), (Values{ 0, 1, 1 }));
   EXPECT_EQ(ValuesOf(reader.Cells("row_2")), (Values{ 30, 31, 31 }));
@@ -519,7 +490,7 @@ TEST(LocalReaderVtk, FramesWithoutRows)
       EXPECT_EQ(reader.Cells("force")->GetNumberOfComponents(), 3);
     }
   }
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 // What the columns are is seen in the frame with most rows, whichever is shown first.
@@ -529,7 +500,7 @@ TEST(LocalReaderVtk, TheFirstFrameHasTheArraysOfAll)
   reader->UpdateTimeStep(0);
   EXPECT_EQ(reader.Names(), "id1 id2 periodic force length");
   EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
-  const Texts said = reader.Said();
+  const Texts said = reader.TakeSaid();
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0],
     local_file("contacts.dump") +
@@ -541,7 +512,7 @@ TEST(LocalReaderVtk, TheFirstFrameHasTheArraysOfAll)
   {
     reader->UpdateTimeStep(time);
   }
-  EXPECT_EQ(reader.Said(), Texts{}) << "said once";
+  EXPECT_EQ(reader.TakeSaid(), Texts{}) << "said once";
 }
 
 TEST(LocalReaderVtk, ColumnsThatChange)
@@ -561,14 +532,14 @@ TEST(LocalReaderVtk, ColumnsThatChange)
   EXPECT_EQ(reader.Names(), "id1 id2 c_f length");
   reader->UpdateTimeStep(3);
   EXPECT_EQ(reader.Names(), "id1 id2 btype force torque equilibrium_length length");
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
   // of a preset that is not that of all frames those that it does not fit are errors
   reader->SetPreset(vtkGranularLocalReader::BONDS_FORCE_TORQUE);
   reader->UpdateTimeStep(3);
   EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 2);
   reader->UpdateTimeStep(2);
   EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 0);
-  const Texts said = reader.Said();
+  const Texts said = reader.TakeSaid();
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(said[0].rfind(path + ":11: expected the 16 columns of the preset", 0), 0u) << said[0];
   reader->UpdateTimeStep(3);
@@ -592,10 +563,10 @@ TEST(LocalReaderVtk, Ids)
   {
     EXPECT_EQ(std::to_string(array->GetValue(i)), ids[static_cast<std::size_t>(i)]);
   }
-  EXPECT_EQ(reader.Said(), Texts{}) << "ids of more digits were kept: none is rounded";
+  EXPECT_EQ(reader.TakeSaid(), Texts{}) << "ids of more digits were kept: none is rounded";
   LinesReader rounded({ Write("id1 id2", { "1 1e+06", "1.23457e+06 2" }) });
   rounded->Update();
-  const Texts said = rounded.Said();
+  const Texts said = rounded.TakeSaid();
   ASSERT_EQ(said.size(), 1u);
   EXPECT_EQ(
     said[0].rfind(
@@ -636,7 +607,7 @@ TEST(LocalReaderVtk, Pieces)
     EXPECT_EQ(ids, numbers) << pieces;
     EXPECT_EQ(found, numbers) << pieces;
   }
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 TEST(LocalReaderVtk, AGrowingRun)
@@ -695,7 +666,7 @@ TEST(LocalReaderVtk, RowsWithoutAHeaderThatGrow)
   reader->Update();
   EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 1, 3, 5, 7 }));
   EXPECT_EQ(Field(reader.Rows(), "timestep"), Values{ 5 });
-  EXPECT_EQ(reader.Said(), Texts{});
+  EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
 TEST(LocalReaderVtk, IsStopped)
@@ -721,7 +692,7 @@ TEST(LocalReaderVtk, IsStopped)
     reader.Seen->StopAt = 0;
     reader->Update();
     EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 30000);
-    EXPECT_EQ(reader.Said(), Texts{});
+    EXPECT_EQ(reader.TakeSaid(), Texts{});
   }
 }
 

@@ -3,9 +3,9 @@
 #include "granular/numbers/number_print_few.h"
 
 #include "../support/decimals.h"
+#include "../support/error_of.h"
 #include "../support/exact_decimal.h"
 #include "../support/hard_case.h"
-#include "granular/common/error.h"
 #include "granular/numbers/number_print_few.h"
 
 #include <gtest/gtest.h>
@@ -154,17 +154,9 @@ TEST(NumberFormat, RefusesOthers)
          "%.99999999999g", "%.-1g", "%.+6g", "%6g", "%.6e", "%.6f", "%f", "%G", "%.6G", "%.6g ",
          " %g", "Shortest", "automatic", "%.6gg", "%.1.g", "%lg" })
   {
-    try
-    {
-      parse_number_format(text);
-      ADD_FAILURE() << "accepted: " << text;
-    }
-    catch (const granular::FormatError& error)
-    {
-      EXPECT_EQ(error.what(),
-        "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
-          std::string(text) + "'");
-    }
+    EXPECT_EQ(error_of<granular::FormatError>([&] { parse_number_format(text); }),
+      "expected a number format of Automatic, %g, %.Ng with N from 1 to 17, or shortest, got '" +
+        std::string(text) + "'");
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bonds of particles: numbers from arithmetic, and each bond against all pairs and their images.
+#include "../support/error_of.h"
 #include "../support/packings.h"
 
 #include "granular/common/error.h"
@@ -304,15 +305,7 @@ PackingRequest request_of(const Case& each)
 
 std::string bonds_error(const PackingRequest& request, double factor)
 {
-  try
-  {
-    Bonds(request, factor);
-  }
-  catch (const granular::LimitError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return ::error_of<granular::LimitError>([&] { Bonds(request, factor); });
 }
 }
 

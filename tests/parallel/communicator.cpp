@@ -2,6 +2,7 @@
 #include "granular/parallel/communicator.h"
 
 #include "../support/communicator_checks.h"
+#include "../support/error_of.h"
 #include "../support/small_disk.h"
 #include "../support/thread_ranks.h"
 
@@ -103,22 +104,14 @@ TEST(Communicator, work_that_fails_on_one_rank_ends_on_all)
   run_ranks(3,
     [](granular::Communicator& ranks)
     {
-      std::string said;
-      try
+      const auto work = [&]
       {
-        granular::do_together(ranks,
-          [&]
-          {
-            if (ranks.rank() == 1)
-            {
-              throw granular::FormatError("expected a number, got 'y'");
-            }
-          });
-      }
-      catch (const granular::FormatError& error)
-      {
-        said = error.what();
-      }
-      EXPECT_EQ(said, "expected a number, got 'y' (on rank 1 of 3)");
+        if (ranks.rank() == 1)
+        {
+          throw granular::FormatError("expected a number, got 'y'");
+        }
+      };
+      EXPECT_EQ(error_of<granular::FormatError>([&] { granular::do_together(ranks, work); }),
+        "expected a number, got 'y' (on rank 1 of 3)");
     });
 }

@@ -2,6 +2,7 @@
 // What a rank without rows learns of a frame from the others.
 #include "granular/particles/frame_view.h"
 
+#include "../support/error_of.h"
 #include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
@@ -67,15 +68,7 @@ TEST(SharedHeader, OtherBoxesAreAnErrorOfAll)
     [](Communicator& ranks)
     {
       FrameView frame = ranks.rank() == 0 ? empty_view() : known_view(3 + ranks.rank());
-      try
-      {
-        share_header(frame, ranks);
-        ADD_FAILURE() << "no error";
-      }
-      catch (const Error& error)
-      {
-        EXPECT_NE(std::string(error.what()).find("on process 2"), std::string::npos)
-          << error.what();
-      }
+      const std::string error = error_of([&] { share_header(frame, ranks); });
+      EXPECT_NE(error.find("on process 2"), std::string::npos) << error;
     });
 }

@@ -146,19 +146,6 @@ protected:
 };
 vtkStandardNewMacro(Frames);
 
-Values ValuesOf(vtkDataArray* array)
-{
-  Values values;
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
-    {
-      values.push_back(array->GetComponent(i, k));
-    }
-  }
-  return values;
-}
-
 struct Filter : Watched<vtkGranularCompare>
 {
   explicit Filter(std::vector<Data> particles, std::vector<Data> lines = {})
@@ -180,18 +167,6 @@ struct Filter : Watched<vtkGranularCompare>
   Values Cells(const char* name)
   {
     return ValuesOf(this->Get->GetLinesOutput()->GetCellData()->GetArray(name));
-  }
-
-  /// That nothing was said, or one thing with this in it.
-  void ExpectSaid(const std::string& text)
-  {
-    ASSERT_EQ(this->Seen->Said.size(), text.empty() ? 0u : 1u)
-      << text << (this->Seen->Said.empty() ? "" : ": " + this->Seen->Said[0]);
-    if (!text.empty())
-    {
-      EXPECT_NE(this->Seen->Said[0].find(text), std::string::npos) << this->Seen->Said[0];
-    }
-    this->Seen->Said.clear();
   }
 
   /// That the update fails with this text and leaves nothing.

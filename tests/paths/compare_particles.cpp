@@ -4,6 +4,7 @@
 
 #include "granular/particles/frame_view.h"
 
+#include "../support/error_of.h"
 #include "../support/hard_case.h"
 #include "../support/quad.h"
 #include "../support/thread_ranks.h"
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -95,19 +95,6 @@ Values numbers(const Block& block)
 {
   const auto* const first = static_cast<const double*>(block.data());
   return { first, first + block.bytes() / sizeof(double) };
-}
-
-std::string error_of(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
 }
 
 Box make_box(double length, const std::string& boundary)

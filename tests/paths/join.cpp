@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames joined to paths: those of walks on a grid, on which all is exact.
+#include "../support/error_of.h"
 #include "../support/hard_case.h"
 #include "../support/quad.h"
+#include "../support/stop.h"
 #include "../support/thread_ranks.h"
 #include "path_checks.h"
 
@@ -19,20 +21,6 @@ using walks::grid;
 namespace
 {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-template <class Call>
-std::string error_of(const Call& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
-}
 
 Paths join_alone(
   const std::vector<PathFrame>& frames, const PathJoin& options = {}, Notices* notices = nullptr)
@@ -450,14 +438,10 @@ TEST(PathsJoin, ArraysThatCannotBe)
 
 TEST(PathsJoin, Cancelled)
 {
-  struct Stop final : Progress
-  {
-    bool report(double) override { return false; }
-  };
   run_ranks(2,
     [](Communicator& ranks)
     {
-      Stop stop;
+      Stop stop(0);
       Progress go;
       Notices notices;
       EXPECT_THROW(join_frames(dealt({ simple_frame({ 3 }, { 1 }) }, by_frames, ranks), {}, ranks,

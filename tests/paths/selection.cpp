@@ -2,8 +2,7 @@
 // Sets of ids: against the words that say them, and against sets.
 #include "granular/paths/id_selection.h"
 
-#include "granular/common/error.h"
-
+#include "../support/error_of.h"
 #include "../support/thread_ranks.h"
 
 #include <gtest/gtest.h>
@@ -42,15 +41,7 @@ Ids held(const IdSelection& selection)
 
 std::string error_of(const std::string& text)
 {
-  try
-  {
-    const IdSelection selection(text);
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return ::error_of([&] { const IdSelection selection(text); });
 }
 }
 

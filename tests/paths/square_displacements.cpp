@@ -2,6 +2,7 @@
 // Mean square displacements: those of the walks, in integers, on any ranks and threads.
 #include "granular/paths/square_displacements.h"
 
+#include "../support/error_of.h"
 #include "../support/hard_case.h"
 #include "../support/quad.h"
 #include "../support/thread_ranks.h"
@@ -250,18 +251,8 @@ TEST(SquareDisplacements, RepeatedIds)
     frame_at({ 1, 2, 3, 2 }, { 1, 2, 3, 4 }) };
   frames[1].has_rows = true;
   frames[1].rows = { 5, 6, 7, 8 };
-  const auto error = [&](Communicator& ranks, const std::vector<PathFrame>& own) -> std::string
-  {
-    try
-    {
-      add_all(own, ranks, 1);
-    }
-    catch (const Error& thrown)
-    {
-      return thrown.what();
-    }
-    return "no error";
-  };
+  const auto error = [](Communicator& ranks, const std::vector<PathFrame>& own)
+  { return error_of([&] { add_all(own, ranks, 1); }); };
   on_ranks(
     [&](Communicator& ranks)
     {
@@ -284,13 +275,5 @@ TEST(SquareDisplacements, RepeatedIds)
   Progress progress;
   SquareDisplacements squares(alone, executor);
   const auto name = [](std::int64_t id) { throw Error("named " + std::to_string(id)); };
-  try
-  {
-    squares.add(frames[0], name, progress);
-    ADD_FAILURE();
-  }
-  catch (const Error& thrown)
-  {
-    EXPECT_STREQ(thrown.what(), "named 1");
-  }
+  EXPECT_EQ(error_of([&] { squares.add(frames[0], name, progress); }), "named 1");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/restart/bond_record.h"
 
-#include "granular/common/error.h"
+#include "../support/error_of.h"
 
 #include <gtest/gtest.h>
 
@@ -33,15 +33,8 @@ std::vector<double> block_of(double bonds, const std::vector<double>& more)
 std::string error_of(
   const std::vector<double>& block, bool may_have_more, std::int64_t history_values)
 {
-  try
-  {
-    look_at_bonds(block, may_have_more, history_values, most_bonds);
-  }
-  catch (const FormatError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return ::error_of<FormatError>(
+    [&] { look_at_bonds(block, may_have_more, history_values, most_bonds); });
 }
 }
 

@@ -2,7 +2,7 @@
 // Records that are not what they say: an error with the place, or a frame, but never a crash or memory for what is not there.
 #include "restart_runs.h"
 
-#include "granular/common/error.h"
+#include "../support/error_of.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,7 @@ using restart_builder::RestartBuilder;
 /// What is said of bytes that have changed since the layout was found.
 std::string error_of(const std::string& layout, const std::string& bytes)
 {
-  try
-  {
-    read_as(layout, bytes);
-  }
-  catch (const granular::Error& error)
-  {
-    return error.what();
-  }
-  return "";
+  return ::error_of([&] { read_as(layout, bytes); });
 }
 
 void put(std::string& bytes, std::size_t at, double number)

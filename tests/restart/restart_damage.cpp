@@ -210,17 +210,9 @@ TEST(RestartDamage, RecordsThatAreNone)
 TEST(RestartDamage, NewerFilesOfLammps)
 {
   const std::string bytes("LammpS RestartT\0\1\0\0\0\2\0\0\0", 24);
-  try
-  {
-    layout_of(bytes);
-    FAIL();
-  }
-  catch (const granular::UnsupportedError& error)
-  {
-    EXPECT_STREQ(error.what(),
-      "memory@0: expected a restart file of LIGGGHTS, got one of LAMMPS: make a dump of it by lmp "
-      "-restart2dump FILE all custom DUMP id type x y z");
-  }
+  EXPECT_EQ(error_of<granular::UnsupportedError>([&] { layout_of(bytes); }),
+    "memory@0: expected a restart file of LIGGGHTS, got one of LAMMPS: make a dump of it by lmp "
+    "-restart2dump FILE all custom DUMP id type x y z");
 }
 
 /// Bytes read of a file to find that there are no particles in it.

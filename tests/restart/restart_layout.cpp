@@ -5,6 +5,7 @@
 
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
+#include "../support/stop.h"
 
 #include <gtest/gtest.h>
 
@@ -501,37 +502,16 @@ TEST(RestartLayout, FixesOfNoParticles)
   }
 }
 
-/// Notes how far a task is, and stops it at some point.
-class Stopping final : public granular::Progress
-{
-public:
-  explicit Stopping(double at)
-    : at_(at)
-  {
-  }
-  bool report(double fraction) override
-  {
-    EXPECT_GE(fraction, last);
-    EXPECT_LE(fraction, 1);
-    last = fraction;
-    return fraction < at_;
-  }
-  double last = 0;
-
-private:
-  double at_;
-};
-
 TEST(RestartLayout, Cancelled)
 {
   RestartBuilder file = small_file();
   file.forces = std::string(4'000'000, '\x11');
   const std::string bytes = file.file();
   granular::Notices notices;
-  Stopping never(2);
+  Stop never;
   expect_small(granular::read_layout(*granular::open_memory(bytes), notices, never));
   EXPECT_GT(never.last, 0.9);
-  Stopping early(0.4);
+  Stop early(Stop::never, 0.4);
   EXPECT_THROW(
     granular::read_layout(*granular::open_memory(bytes), notices, early), granular::Cancelled);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "byte_source_packing.h"
+#include "error_of.h"
 
 #include "granular/bytes/byte_source_unpack.h"
 #include "granular/common/error.h"
@@ -141,15 +142,7 @@ std::string read_all(const ByteSource& source, std::size_t piece, std::int64_t o
 
 std::string error_of(std::string_view packed)
 {
-  try
-  {
-    read_all(*open(packed));
-  }
-  catch (const granular::Error& error)
-  {
-    return error.what();
-  }
-  return {};
+  return ::error_of([&] { read_all(*open(packed)); });
 }
 
 namespace
@@ -253,6 +246,80 @@ void expect_prefixes(const std::string& packed, std::string_view content,
     EXPECT_EQ(source->unchecked().empty(), complete(length)) << length;
     EXPECT_TRUE(length < packed.size() || text == content);
   }
+}
+
+std::int64_t expect_same_error(const std::string& packed)
+{
+  const auto source = open(packed);
+  std::vector<char> buffer(1 << 20);
+  EXPECT_EQ(source->read(0, buffer.data(), 1000), 1000u);
+  std::string first;
+  std::int64_t byte = -1;
+  for (const std::int64_t offset : { 2 << 20, 0, 3 << 20, 1 << 20, 1 << 30 })
+  {
+    try
+    {
+      read_all(*source, buffer.size(), offset); // to the checksum, where it may be seen first
+      ADD_FAILURE() << offset;
+    }
+    catch (const granular::FormatError& error)
+    {
+      first = first.empty() ? error.what() : first;
+      EXPECT_EQ(error.what(), first);
+      byte = error.where().byte;
+    }
+  }
+  return byte;
+}
+
+void expect_growth_between_sources(
+  const std::string& packed, const std::string& content, const std::string& cut_text)
+{
+  const auto points = spaced(1 << 17);
+  std::size_t last = 0;
+  for (const std::size_t part : { 3u, 5u, 6u, 8u })
+  {
+    const auto source = open(std::string_view(packed).substr(0, packed.size() * part / 8), points);
+    const std::string text = read_all(*source, 1 << 16);
+    EXPECT_TRUE(text == content.substr(0, text.size()));
+    EXPECT_GT(text.size(), last);
+    EXPECT_EQ(source->unchecked(), part < 8 ? cut_text : "");
+    last = text.size();
+  }
+  EXPECT_EQ(last, content.size());
+}
+
+void expect_growth_while_open(const std::string& packed, const std::string& content)
+{
+  Medium medium{ packed.substr(0, 3) };
+  const auto source = packing::unpack(open_medium(medium));
+  std::string text;
+  for (std::size_t size = 4; size <= packed.size(); ++size)
+  {
+    medium.bytes = packed.substr(0, size);
+    text += read_all(*source, 100, static_cast<std::int64_t>(text.size()));
+  }
+  EXPECT_EQ(text, content);
+  EXPECT_EQ(source->unchecked(), "");
+}
+
+std::shared_ptr<SeekPoints> expect_points_to_serve(
+  Medium& medium, const std::string& content, unsigned seed)
+{
+  const auto points = spaced(1 << 17);
+  expect_random_reads(*packing::unpack(open_medium(medium), points), content, 600, seed);
+  const std::size_t found = points->points.size();
+
+  // Another source goes to the end at once, and finds no points that were not there.
+  medium.read = 0;
+  const auto again = packing::unpack(open_medium(medium), points);
+  EXPECT_TRUE(read_all(*again, 1000, (6 << 20) - 5000) == content.substr((6 << 20) - 5000));
+  EXPECT_EQ(again->unchecked(), "");
+  EXPECT_LT(medium.read, 600000);
+  EXPECT_GT(medium.bytes.size(), 2000000u);
+  expect_random_reads(*again, content, 150, seed + 1);
+  EXPECT_EQ(points->points.size(), found);
+  return points;
 }
 
 void expect_random_reads(

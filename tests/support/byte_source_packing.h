@@ -96,6 +96,21 @@ Outcomes damage(const std::string& packed, std::string_view content);
 void expect_prefixes(const std::string& packed, std::string_view content,
   const std::function<bool(std::size_t)>& complete);
 
+/// Expects that a damaged file ends with the same FormatError wherever it is read from. Returns the byte of the last.
+std::int64_t expect_same_error(const std::string& packed);
+
+/// Expects ever more of the content of a file that grows, is opened anew and has kept its seek points.
+void expect_growth_between_sources(
+  const std::string& packed, const std::string& content, const std::string& cut_text);
+
+/// Expects the content of a file that grows byte by byte while it is open.
+void expect_growth_while_open(const std::string& packed, const std::string& content);
+
+/// Expects that random reads find seek points, and that a later source finds its way by them and finds no others. medium has
+/// six MiB of content, and the spacing is 2^17. Returns the points.
+std::shared_ptr<granular::SeekPoints> expect_points_to_serve(
+  Medium& medium, const std::string& content, unsigned seed);
+
 /// Reads of random places and lengths, compared with the content. near: most of them go on from
 /// where the last one ended, or a bit before.
 void expect_random_reads(

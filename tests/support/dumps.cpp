@@ -207,19 +207,6 @@ std::string lines_of(const Notices& notices)
   return text;
 }
 
-std::string error_of(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
-}
-
 DumpRequest everything()
 {
   DumpRequest request;

@@ -2,11 +2,11 @@
 #ifndef granular_tests_support_dumps_h
 #define granular_tests_support_dumps_h
 
+#include "error_of.h"
 #include "granular/frames/file_index.h"
 #include "read_source.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,9 +73,6 @@ std::string one_frame(const std::string& columns, const std::string& rows,
 
 /// One a line.
 std::string lines_of(const granular::Notices& notices);
-
-/// what() of the granular::Error that a call throws, or "".
-std::string error_of(const std::function<void()>& call);
 
 /// Nobody of these names is there: all arrays, also the coordinate columns.
 granular::DumpRequest everything();

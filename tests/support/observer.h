@@ -8,8 +8,11 @@
 #include "vtkExecutive.h"
 #include "vtkNew.h"
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Keeps what is said, and asks to stop at the n-th report of progress.
@@ -56,6 +59,28 @@ struct Watched
   }
 
   Algorithm* operator->() { return this->Get; }
+
+  /// Returns all that was said since the last call, without the place in the sources that VTK puts before it.
+  std::vector<std::string> TakeSaid()
+  {
+    std::vector<std::string> texts;
+    for (std::string text : std::exchange(this->Seen->Said, {}))
+    {
+      const std::size_t start = text.find("): ");
+      text.erase(0, start == std::string::npos ? 0 : start + 3);
+      text.erase(text.find_last_not_of('\n') + 1);
+      texts.push_back(text);
+    }
+    return texts;
+  }
+
+  /// Expects that nothing was said, or one thing with this in it.
+  void ExpectSaid(const std::string& text)
+  {
+    const std::vector<std::string> said = std::exchange(this->Seen->Said, {});
+    ASSERT_EQ(said.size(), text.empty() ? 0u : 1u) << text << (said.empty() ? "" : ": " + said[0]);
+    EXPECT_TRUE(text.empty() || said[0].find(text) != std::string::npos) << said[0];
+  }
 };
 
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "packings.h"
+#include "error_of.h"
 
 #include "granular/common/error.h"
 
@@ -196,14 +197,6 @@ granular::RadiusChoice two_radii(double first, double second, double share)
 
 std::string error_of(const granular::PackingRequest& request)
 {
-  try
-  {
-    granular::Progress progress;
-    granular::make_packing(request, progress);
-  }
-  catch (const granular::LimitError& error)
-  {
-    return error.what();
-  }
-  return "";
+  granular::Progress progress;
+  return error_of<granular::LimitError>([&] { granular::make_packing(request, progress); });
 }

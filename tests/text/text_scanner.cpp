@@ -2,6 +2,7 @@
 #include "granular/text/text_scanner.h"
 
 #include "../support/counting_source.h"
+#include "../support/error_of.h"
 
 #include <gtest/gtest.h>
 
@@ -167,16 +168,8 @@ TEST(TextScanner, AnEndlessLineIsALimitError)
   TextScanner scanner(source, 0, 1);
   std::string_view line;
   ASSERT_TRUE(scanner.next(line));
-  try
-  {
-    scanner.next(line);
-    FAIL() << "expected an error";
-  }
-  catch (const granular::LimitError& error)
-  {
-    EXPECT_STREQ(
-      error.what(), "memory:2: expected a line of at most 4194304 bytes, got a longer one");
-  }
+  EXPECT_EQ(error_of<granular::LimitError>([&] { scanner.next(line); }),
+    "memory:2: expected a line of at most 4194304 bytes, got a longer one");
   EXPECT_LE(source.bytes_read(), static_cast<std::int64_t>(2 * TextScanner::longest_line + window));
 }
 

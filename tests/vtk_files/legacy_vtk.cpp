@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/vtk_files/legacy_vtk.h"
 
+#include "../support/error_of.h"
+
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -42,20 +44,6 @@ struct Text
 std::string header(const std::string& form, const std::string& dataset)
 {
   return "# vtk DataFile Version 4.2\na title\n" + form + "\nDATASET " + dataset + "\n";
-}
-
-template <class Call>
-std::string error_of(const Call& call)
-{
-  try
-  {
-    call();
-    return "";
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
 }
 
 /// The values of an array "a" of one component in a binary file.
