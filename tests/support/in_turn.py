@@ -21,7 +21,7 @@ MARK = "-- script "
 
 def run(output, name, words):
     """Runs a script; what goes wrong is printed, and the next one can run."""
-    print(MARK + name, file=sys.stderr, flush=True)
+    os.write(2, f"{MARK}{name}\n".encode())  # at once: of several ranks that run the script the lines stay whole
     folder = os.environ["GRANULAR_OUTPUT"] = os.path.join(output, name)
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
@@ -54,7 +54,7 @@ with open(table) as file:
 if command:
     process = subprocess.run([*command, __file__, output, table], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     print(process.stdout, flush=True)
-    parts = re.split(f"{MARK}(.*)\n", process.stdout)
+    parts = re.split(rf"{MARK}(\w+)\n", process.stdout)
     said = {}
     for name, text in zip(parts[1::2], parts[2::2]):
         said[name] = said.get(name, "") + text  # of each rank that runs the script
