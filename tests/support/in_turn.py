@@ -58,7 +58,7 @@ if command:
     said = {}
     for name, text in zip(parts[1::2], parts[2::2]):
         said[name] = said.get(name, "") + text  # of each rank that runs the script
-    wrong = [judge(said.get(name, ""), name, expected, forbidden) for name, _, expected, forbidden in rows]
+    wrong = [judge(said[name], name, expected, forbidden) if name in said else f"{name}: did not run" for name, _, expected, forbidden in rows]
     wrong += [None if process.returncode == 0 else f"exit status {process.returncode}"]
     sys.exit("\n".join(filter(None, wrong)) or 0)
 for name, words, _, _ in rows:
