@@ -5,61 +5,87 @@ in_turn.py OUTPUT TABLE mpirun -n 3 pvbatch ...   runs them, and looks at what e
 in_turn.py OUTPUT TABLE                           that pvbatch: each script in its folder below OUTPUT
 
 A line of the table: the name of the test, the script with its arguments, what it must say or nothing, what it must not say; a tab between
-each two. Expressions are those of Python, and `.` is any character.
+each two. Expressions are those of Python, and `.` is any character. What a rank says while a script runs goes into a file of that rank
+beside the table's, <name>.<number of its process>, as lines of several ranks would mix.
 """
 import gc
+import glob
 import os
 import re
 import runpy
 import subprocess
 import sys
-import time
 import traceback
 
-MARK = "-- script "
+# What each rank executes before a script, those that do not run the script too.
+SAY_INTO = """
+import os, sys
+sys.stdout.flush()
+said = os.open(f"{path}.{{os.getpid()}}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+os.dup2(said, 1)
+os.dup2(said, 2)
+os.close(said)
+"""
 
 
-def run(output, name, words):
+def run(simple, output, said, name, words):
     """Runs a script; what goes wrong is printed, and the next one can run."""
-    os.write(2, f"{MARK}{name}\n".encode())  # at once: of several ranks that run the script the lines stay whole
     folder = os.environ["GRANULAR_OUTPUT"] = os.path.join(output, name)
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
+    simple.ProgrammableSource(Script=SAY_INTO.format(path=os.path.join(said, name))).UpdatePipeline()
     sys.argv[:] = words.split()
     sys.path[0] = os.path.dirname(sys.argv[0])
     try:
         runpy.run_path(sys.argv[0], run_name="__main__")
     except BaseException:
         traceback.print_exc()
-    from paraview import simple
     for proxy in [*simple.GetRenderViews(), *simple.GetSources().values()]:
         simple.Delete(proxy)
     gc.collect()
-    time.sleep(0.2)  # what other ranks said comes by another way than the next mark
+
+
+def take(said, name):
+    """Returns what all ranks said while a script ran, or None if it did not run, and forgets it."""
+    texts = []
+    for path in glob.glob(os.path.join(said, name + ".*")):
+        with open(path, errors="replace") as file:
+            texts.append(file.read())
+        os.remove(path)
+    return "".join(texts) if texts else None
 
 
 def judge(said, name, expected, forbidden):
-    """Returns what is wrong with what a script said."""
+    """Returns what is wrong with what a script said, and the whole of it."""
+    if said is None:
+        return f"{name}: did not run"
     found = re.search(forbidden, said)
     if found:
-        return f"{name}: said {found.group()!r}"
+        return f"{name}: said {found.group()!r}, in\n{said}"
     if not re.search(expected, said, re.DOTALL):
-        return f"{name}: did not say {expected!r}"
+        return f"{name}: did not say {expected!r}, but\n{said}"
     return None
 
 
-output, table, *command = sys.argv[1:]
-with open(table) as file:
-    rows = [line.rstrip("\n").split("\t") for line in file]
-if command:
-    process = subprocess.run([*command, __file__, output, table], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
-    print(process.stdout, flush=True)
-    parts = re.split(rf"{MARK}(\w+)\n", process.stdout)
-    said = {}
-    for name, text in zip(parts[1::2], parts[2::2]):
-        said[name] = said.get(name, "") + text  # of each rank that runs the script
-    wrong = [judge(said[name], name, expected, forbidden) if name in said else f"{name}: did not run" for name, _, expected, forbidden in rows]
-    wrong += [None if process.returncode == 0 else f"exit status {process.returncode}"]
-    sys.exit("\n".join(filter(None, wrong)) or 0)
-for name, words, _, _ in rows:
-    run(output, name, words)
+def run_and_judge(output, table, said, rows, command):
+    """Returns what is wrong with the scripts, or 0."""
+    for name, _, _, _ in rows:
+        take(said, name)
+    status = subprocess.run([*command, __file__, output, table]).returncode
+    wrong = [judge(take(said, name), name, expected, forbidden) for name, _, expected, forbidden in rows]
+    wrong += [None if status == 0 else f"exit status {status}"]
+    return "\n".join(filter(None, wrong)) or 0
+
+
+def main(output, table, *command):
+    with open(table) as file:
+        rows = [line.rstrip("\n").split("\t") for line in file]
+    said = os.path.splitext(table)[0]
+    if command:
+        sys.exit(run_and_judge(output, table, said, rows, command))
+    from paraview import simple
+    for name, words, _, _ in rows:
+        run(simple, output, said, name, words)
+
+
+main(*sys.argv[1:])
