@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "packing.h"
 
+#include "granular/formats/restart/bond_record.h"
 #include "granular/numbers/number_print.h"
-#include "granular/restart/bond_record.h"
 
 #include <cstring>
 

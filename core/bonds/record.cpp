@@ -2,8 +2,8 @@
 // The record of a particle in a restart file; see RecordSlots. The sign of a bond's type is kept, although the programs lose it.
 #include "packing.h"
 
+#include "granular/formats/restart/bond_record.h"
 #include "granular/numbers/number_print.h"
-#include "granular/restart/bond_record.h"
 
 #include <algorithm>
 

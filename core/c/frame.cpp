@@ -2,7 +2,8 @@
 #include "frame.h"
 
 #include "granular/common/words.h"
-#include "granular/local/local_columns.h"
+#include "granular/formats/local/local_reader.h"
+#include "granular/lines/line_columns.h"
 #include "granular/particles/column_arrays.h"
 #include "granular/runs/kind.h"
 
@@ -100,7 +101,7 @@ void add_ends(FrameView& view, const ArrayView& ends)
 }
 
 /// Returns the columns of the file that were read: a writer would make up the others.
-std::vector<std::string> columns_read(const DumpFrame& rows)
+std::vector<std::string> columns_read(const Table& rows)
 {
   std::set<int> read;
   const auto add = [&](const ArrayInfo& array)
@@ -108,7 +109,7 @@ std::vector<std::string> columns_read(const DumpFrame& rows)
     std::ranges::copy_if(
       array.columns, std::inserter(read, read.end()), [](int column) { return column >= 0; });
   };
-  std::ranges::for_each(rows.arrays, add, &DumpArray::info);
+  std::ranges::for_each(rows.arrays, add, &TableArray::info);
   for (const ArrayInfo& array : rows.schema.arrays())
   {
     if (array.position_form && rows.points.data() != nullptr)
@@ -297,17 +298,17 @@ void WriteView::add(std::string name, ValueType type, int components, const void
 using namespace granular;
 
 granular_frame::granular_frame(
-  granular_c::RowKind rows_kind, LocalFrame&& taken, std::span<const KnownColumn> known)
+  granular_c::RowKind rows_kind, Table&& taken, std::span<const KnownColumn> known)
   : kind(rows_kind)
-  , read(std::move(taken))
+  , table(std::move(taken))
   , column_text(table.schema.text())
 {
-  if (read.has_lines)
+  if (table.has_lines)
   {
-    arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, read.lines.points.data(),
+    arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),
       find_known("x1", known) });
     arrays.push_back(
-      { "length", ValueType::Float64, 1, read.lines.lengths.data(), find_known("length", known) });
+      { "length", ValueType::Float64, 1, table.lines.lengths.data(), find_known("length", known) });
   }
   if (table.points.data() != nullptr)
   {
@@ -316,7 +317,7 @@ granular_frame::granular_frame(
     arrays.push_back({ granular_c::points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
       table.points.data(), find_known("x", known) });
   }
-  for (const DumpArray& array : table.arrays)
+  for (const TableArray& array : table.arrays)
   {
     arrays.push_back({ array.info.name.c_str(), array.info.type, array.info.components(),
       array.block.data(), find_known(array.info.name, known) });

@@ -8,7 +8,8 @@
 #include "granular/common/error.h"
 #include "granular/frames/run_index.h"
 #include "granular/particles/frame_view.h"
-#include "granular/runs/table.h"
+#include "granular/particles/table.h"
+#include "granular/runs/offer.h"
 
 #include <memory>
 #include <optional>
@@ -36,14 +37,13 @@ using granular::RowKind;
 struct granular_frame
 {
   /// Takes a table that was read, whose units `known` knows.
-  granular_frame(granular_c::RowKind rows_kind, granular::LocalFrame&& read,
+  granular_frame(granular_c::RowKind rows_kind, granular::Table&& read,
     std::span<const granular::KnownColumn> known);
   granular_frame(const granular_frame&) = delete;
   granular_frame& operator=(const granular_frame&) = delete;
 
   const granular_c::RowKind kind;
-  const granular::LocalFrame read;
-  const granular::DumpFrame& table = read.table;
+  const granular::Table table;
   granular::Vector3 origin = {};
   double time = 0;               ///< of the run
   const std::string column_text; ///< of the file, separated by blanks

@@ -4,7 +4,7 @@
 #include "granular/bytes/find_files.h"
 #include "granular/common/words.h"
 #include "granular/geometry/region.h"
-#include "granular/local/local_columns.h"
+#include "granular/lines/line_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 
@@ -244,7 +244,7 @@ std::unique_ptr<granular_frame> granular_run::read(
   pool->next_frame();
   SerialCommunicator alone;
   Notices notices;
-  RunFrame read = run_.read(frame, request, this->offer(frame), alone, notices, caller);
+  Tables read = run_.read(frame, request, this->offer(frame), alone, notices, caller);
   auto made = request.bonds
     ? std::make_unique<granular_frame>(RowKind::Lines, std::move(read.bonds), local_known_columns())
     : std::make_unique<granular_frame>(

@@ -2,9 +2,9 @@
 #include "writer.h"
 
 #include "granular/common/words.h"
-#include "granular/decomposition/decomposition_text.h"
-#include "granular/dump/write/dump_writer.h"
-#include "granular/euler/euler_text.h"
+#include "granular/formats/decomposition/decomposition_text.h"
+#include "granular/formats/dump/write/dump_writer.h"
+#include "granular/formats/euler/euler_text.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"

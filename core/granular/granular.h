@@ -13,27 +13,27 @@
 #include "granular/parallel/communicator.h"
 
 // ---- particles ----------------------------------------------------------------------------------
-#include "granular/dump/formats/dump_files.h"
-#include "granular/dump/read/dump_reader.h"
-#include "granular/dump/write/dump_writer.h"
+#include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/formats/dump/read/dump_reader.h"
+#include "granular/formats/dump/write/dump_writer.h"
 #include "granular/packing/packing.h"
 
 // ---- particles and bonds of data files -------------------------------------------------------------
-#include "granular/data_file/data_file.h"
-#include "granular/data_file/read_data.h"
+#include "granular/formats/data_file/data_file.h"
+#include "granular/formats/data_file/read_data.h"
 
 // ---- contacts and bonds -------------------------------------------------------------------------
-#include "granular/local/join.h"
-#include "granular/local/local_file.h"
-#include "granular/local/local_reader.h"
-#include "granular/restart/restart_file.h"
-#include "granular/restart/restart_reader.h"
+#include "granular/formats/local/local_file.h"
+#include "granular/formats/local/local_reader.h"
+#include "granular/formats/restart/restart_file.h"
+#include "granular/formats/restart/restart_reader.h"
+#include "granular/lines/join.h"
 
 // ---- cells and subdomains -----------------------------------------------------------------------
-#include "granular/decomposition/count_particles.h"
-#include "granular/decomposition/decomposition_file.h"
-#include "granular/decomposition/decomposition_text.h"
-#include "granular/euler/average.h"
-#include "granular/euler/euler_file.h"
-#include "granular/euler/euler_text.h"
+#include "granular/averages/average.h"
+#include "granular/formats/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/decomposition_text.h"
+#include "granular/formats/euler/euler_file.h"
+#include "granular/formats/euler/euler_text.h"
+#include "granular/subdomains/count_particles.h"
 #endif

@@ -5,7 +5,7 @@
 // the order of the ids, so that the file does not depend on the number of processes. A name that ends in
 // .bin gives a binary file. The simulation is a toy - particles fly through a periodic box and meet
 // nobody - but its atoms lie in memory as those of a real one do.
-#include "granular/dump/write/dump_writer.h"
+#include "granular/formats/dump/write/dump_writer.h"
 #include "granular/mpi/mpi_communicator.h"
 
 #include <cstddef>

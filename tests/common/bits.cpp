@@ -3,9 +3,9 @@
 
 #include "../euler/made_particles.h"
 
-#include "granular/decomposition/process_grid.h"
-#include "granular/euler/time_average.h"
+#include "granular/averages/time_average.h"
 #include "granular/geometry/positions.h"
+#include "granular/grid/process_grid.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/packing_plan.h"
 
@@ -18,7 +18,7 @@ using namespace granular;
 
 namespace
 {
-class Lines
+class BitLines
 {
 public:
   void add(const std::string& name, const void* data, std::size_t bytes)
@@ -80,7 +80,7 @@ std::vector<Particle> some_particles(Numbers& numbers)
   return particles;
 }
 
-void add_averages(Lines& lines)
+void add_averages(BitLines& lines)
 {
   Numbers numbers;
   const Box box = periodic_box({ -1, 0, 2 }, { 1, 3, 3 }, "pp pp ff");
@@ -105,7 +105,7 @@ void add_averages(Lines& lines)
   }
 }
 
-void add_packings(Lines& lines)
+void add_packings(BitLines& lines)
 {
   const Box tilted = Box::from_tilted_bounds({ 0, 0, 0 }, { 13, 12, 11 }, 0.7, -1.3, 1.1);
   for (const bool is_tilted : { false, true })
@@ -127,11 +127,11 @@ void add_packings(Lines& lines)
       }
       Progress progress;
       const PackingPlan plan(request, progress);
-      const DumpFrame frame = make_packing(plan, progress);
+      const Table frame = make_packing(plan, progress);
       const std::string name = std::string(is_tilted ? "tilted packing " : "packing ") +
         std::to_string(static_cast<int>(arrangement));
       lines.add(name, frame.points.data(), frame.points.bytes());
-      for (const DumpArray& array : frame.arrays)
+      for (const TableArray& array : frame.arrays)
       {
         lines.add(name + " " + array.info.name, array.block.data(), array.block.bytes());
       }
@@ -143,7 +143,7 @@ void add_packings(Lines& lines)
   }
 }
 
-void add_positions(Lines& lines)
+void add_positions(BitLines& lines)
 {
   Numbers numbers;
   const std::vector<Box> boxes = { Box::from_bounds({ -1e6, 0, 2 }, { -1e6 + 0.1, 3, 2.7 }),
@@ -181,7 +181,7 @@ void add_positions(Lines& lines)
   }
 }
 
-void add_process_grids(Lines& lines)
+void add_process_grids(BitLines& lines)
 {
   for (int n = 1; n < 200; ++n)
   {
@@ -199,7 +199,7 @@ void add_process_grids(Lines& lines)
 
 std::string result_bits()
 {
-  Lines lines;
+  BitLines lines;
   add_averages(lines);
   add_packings(lines);
   add_positions(lines);

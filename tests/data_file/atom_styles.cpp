@@ -9,17 +9,13 @@ std::string read_row(const std::string& row, const std::string& style,
   const std::string& asked = "", const std::string& more = "")
 {
   DataRun run(write_data(data_text(1, "Atoms" + style + "\n\n" + row + "\n\n" + more)));
-  granular::DataRequest request;
-  request.atom_style = asked;
-  const std::string names = names_of(run.read(request).particles);
+  const std::string names = names_of(run.read({}, { .atom_style = asked }).rows);
   return names + (run.said().empty() ? "" : "; " + run.said());
 }
 
 std::string error(const std::string& row, const std::string& style, const std::string& asked = "")
 {
-  granular::DataRequest request;
-  request.atom_style = asked;
-  return data_error(data_text(1, "Atoms" + style + "\n\n" + row + "\n"), request);
+  return data_error(data_text(1, "Atoms" + style + "\n\n" + row + "\n"), { .atom_style = asked });
 }
 }
 

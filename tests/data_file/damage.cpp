@@ -20,22 +20,22 @@ std::string result_of(const std::string& text)
   const std::string path = write_data(text);
   try
   {
-    const granular::DataFrame frame = DataRun(path).read();
-    const auto rows = static_cast<std::size_t>(frame.particles.rows);
-    EXPECT_EQ(points_of(frame.particles).size(), 3 * rows);
-    for (const granular::DumpArray& array : frame.particles.arrays)
+    const granular::Tables frame = DataRun(path).read();
+    const auto rows = static_cast<std::size_t>(frame.rows.rows);
+    EXPECT_EQ(points_of(frame.rows).size(), 3 * rows);
+    for (const granular::TableArray& array : frame.rows.arrays)
     {
       EXPECT_EQ(
         array.block.bytes(), rows * array.info.columns.size() * granular::size_of(array.info.type));
     }
-    EXPECT_EQ(frame.bonds.lines.count, frame.bonds.table.rows);
+    EXPECT_EQ(frame.bonds.lines.count, frame.bonds.rows);
     std::string values;
-    for (const double value : array_of(frame.particles, "v"))
+    for (const double value : array_of(frame.rows, "v"))
     {
       values += std::to_string(value) + " ";
     }
-    return std::to_string(rows) + " particles, " + std::to_string(frame.bonds.table.rows) +
-      " bonds, v " + values;
+    return std::to_string(rows) + " particles, " + std::to_string(frame.bonds.rows) + " bonds, v " +
+      values;
   }
   catch (const granular::Error& error)
   {

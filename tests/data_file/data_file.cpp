@@ -29,15 +29,14 @@ TEST(DataFile, TheTitleSaysTheTimestep)
     "LAMMPS data file via write_data, timestep = 2000, units = si\n\n1 atoms\n0 1 xlo xhi\n"
     "\nAtoms # atomic\n\n1 1 0.5 0 0\n"));
   EXPECT_EQ(run.step(), 2000);
-  EXPECT_EQ(run.read().particles.header.units, "si");
-  EXPECT_EQ(run.read().particles.header.timestep, 2000);
+  EXPECT_EQ(run.read().rows.header.units, "si");
+  EXPECT_EQ(run.read().rows.header.timestep, 2000);
 }
 
 TEST(DataFile, Boxes)
 {
-  const auto box = [](const std::string& lines) {
-    return DataRun(write_data("t\n\n0 atoms\n1 atom types\n" + lines)).read().particles.header.box;
-  };
+  const auto box = [](const std::string& lines)
+  { return DataRun(write_data("t\n\n0 atoms\n1 atom types\n" + lines)).read().rows.header.box; };
   const granular::Box plain = box("-1 3 xlo xhi # x\n2 4 ylo yhi\n");
   EXPECT_EQ(plain.origin[0].value(), -1);
   EXPECT_EQ(plain.vectors[0][0].value(), 4);
@@ -65,13 +64,13 @@ TEST(DataFile, SectionsInAnyOrder)
     "Bonds # ids\n\n# first\n\n1 3 20 10 # only\n\nBond Coeffs # harmonic\n\n1 200 1.05\n\n"
     "Velocities\n\n10 1 2 3\n# between\n20 4 5 6\n# behind\n\n"
     "Masses\n\nC 1\n\nAtoms  # bond \n\n20 1 2 1 1 1 # a # b\n\n  # blank\n10 1 1 2 2 2\n"));
-  const granular::DataFrame frame = run.read();
-  EXPECT_EQ(names_of(frame.particles), "id mol type v");
-  EXPECT_EQ(array_of<std::int64_t>(frame.particles, "id"), (std::vector<std::int64_t>{ 20, 10 }));
-  EXPECT_EQ(array_of(frame.particles, "v"), (Numbers{ 4, 5, 6, 1, 2, 3 }));
-  EXPECT_EQ(points_of(frame.particles), (Numbers{ 1, 1, 1, 2, 2, 2 }));
-  EXPECT_EQ(array_of<std::int32_t>(frame.bonds.table, "btype"), (std::vector<std::int32_t>{ 3 }));
-  EXPECT_EQ(frame.particles.schema.text(), "id mol type x y z vx vy vz");
+  const granular::Tables frame = run.read();
+  EXPECT_EQ(names_of(frame.rows), "id mol type v");
+  EXPECT_EQ(array_of<std::int64_t>(frame.rows, "id"), (std::vector<std::int64_t>{ 20, 10 }));
+  EXPECT_EQ(array_of(frame.rows, "v"), (Numbers{ 4, 5, 6, 1, 2, 3 }));
+  EXPECT_EQ(points_of(frame.rows), (Numbers{ 1, 1, 1, 2, 2, 2 }));
+  EXPECT_EQ(array_of<std::int32_t>(frame.bonds, "btype"), (std::vector<std::int32_t>{ 3 }));
+  EXPECT_EQ(frame.rows.schema.text(), "id mol type x y z vx vy vz");
   EXPECT_EQ(run.said(), "");
 }
 
@@ -87,10 +86,10 @@ TEST(DataFile, LongComments)
   DataRun run(write_data(data_text(200, "Atoms # atomic\n\n" + rows)));
   for (const std::size_t chunk : { std::size_t{ 64 }, std::size_t{ 1000 }, std::size_t{ 1 } << 18 })
   {
-    granular::DataRequest request;
-    request.particles.chunk_bytes = chunk;
-    request.particles.threads = 3;
-    const Numbers points = points_of(run.read(request).particles);
+    granular::Request request;
+    request.chunk_bytes = chunk;
+    request.threads = 3;
+    const Numbers points = points_of(run.read(request).rows);
     ASSERT_EQ(points.size(), 600u);
     for (std::size_t i = 0; i < 200; ++i)
     {
@@ -135,8 +134,8 @@ TEST(DataFile, WithoutParticles)
   for (const char* sections : { "", "Atoms\n\n", "Atoms # sphere\n\nVelocities\n\nBonds\n\n" })
   {
     DataRun run(write_data(data_text(0, sections)));
-    const granular::DataFrame frame = run.read();
-    EXPECT_EQ(frame.particles.rows, 0) << sections;
+    const granular::Tables frame = run.read();
+    EXPECT_EQ(frame.rows.rows, 0) << sections;
     EXPECT_EQ(frame.bonds.lines.count, 0) << sections;
     EXPECT_EQ(run.said(), "") << sections;
   }

@@ -3,8 +3,8 @@
 #ifndef granular_tests_data_file_data_run_h
 #define granular_tests_data_file_data_run_h
 
-#include "granular/data_file/data_file.h"
-#include "granular/data_file/read_data.h"
+#include "granular/formats/data_file/data_file.h"
+#include "granular/formats/data_file/read_data.h"
 
 #include <gtest/gtest.h>
 
@@ -52,11 +52,12 @@ public:
   std::int64_t step() const { return index_.first_piece(0).entry.timestep; }
   const granular::FileIndex& file() const { return index_.first_piece(0).file; }
 
-  granular::DataFrame read(const granular::DataRequest& request = {})
+  granular::Tables read(
+    const granular::Request& request = {}, const granular::DataOptions& options = {})
   {
     granular::SerialCommunicator alone;
     granular::Progress progress;
-    return granular::read_data(index_.first_piece(0), request, alone, notices_, progress);
+    return granular::read_data(index_.first_piece(0), options, request, alone, notices_, progress);
   }
 
   std::string said() const
@@ -75,12 +76,12 @@ private:
 };
 
 /// The message of what looking at the text and reading it throws, less the path; or "".
-inline std::string data_error(const std::string& text, const granular::DataRequest& request = {})
+inline std::string data_error(const std::string& text, const granular::DataOptions& options = {})
 {
   const std::string path = write_data(text);
   try
   {
-    DataRun(path).read(request);
+    DataRun(path).read({}, options);
   }
   catch (const granular::Error& error)
   {
@@ -92,9 +93,9 @@ inline std::string data_error(const std::string& text, const granular::DataReque
 
 /// The values of an array; none: it is not there.
 template <class Value = double>
-std::vector<Value> array_of(const granular::DumpFrame& frame, const std::string& name)
+std::vector<Value> array_of(const granular::Table& frame, const std::string& name)
 {
-  for (const granular::DumpArray& array : frame.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     if (array.info.name == name)
     {
@@ -105,16 +106,16 @@ std::vector<Value> array_of(const granular::DumpFrame& frame, const std::string&
   return {};
 }
 
-inline std::vector<double> points_of(const granular::DumpFrame& frame)
+inline std::vector<double> points_of(const granular::Table& frame)
 {
   const auto* const values = static_cast<const double*>(frame.points.data());
   return { values, values + frame.points.bytes() / sizeof(double) };
 }
 
-inline std::string names_of(const granular::DumpFrame& frame)
+inline std::string names_of(const granular::Table& frame)
 {
   std::string names;
-  for (const granular::DumpArray& array : frame.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     names += (names.empty() ? "" : " ") + array.info.name;
   }

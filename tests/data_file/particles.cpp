@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values of particles: against the dumps that the programs wrote of the same step, and by hand.
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include "data_run.h"
 
@@ -13,7 +13,7 @@ namespace
 using Numbers = std::vector<double>;
 using Ids = std::vector<std::int64_t>;
 
-granular::DumpFrame dump_of(const std::string& path, bool sorted)
+granular::Table dump_of(const std::string& path, bool sorted)
 {
   granular::RunIndex index;
   granular::IndexOptions options;
@@ -21,7 +21,7 @@ granular::DumpFrame dump_of(const std::string& path, bool sorted)
   granular::Notices notices;
   granular::Progress progress;
   index.update({ path }, options, notices, progress);
-  granular::DumpRequest request;
+  granular::Request request;
   request.sort_by_id = sorted;
   return granular::read_dump(index.pieces(0), request, notices, progress);
 }
@@ -53,11 +53,11 @@ TEST(DataParticles, AsTheProgramsDumpThem)
   for (const auto& [style, names] : arrays)
   {
     DataRun run(good_data("data_file/" + style + ".data"));
-    granular::DataRequest request;
-    request.particles.sort_by_id = true;
-    request.particles.threads = 2;
-    const granular::DumpFrame found = run.read(request).particles;
-    const granular::DumpFrame wanted = dump_of(good_data("data_file/" + style + ".dump"), true);
+    granular::Request request;
+    request.sort_by_id = true;
+    request.threads = 2;
+    const granular::Table found = run.read(request).rows;
+    const granular::Table wanted = dump_of(good_data("data_file/" + style + ".dump"), true);
     EXPECT_EQ(found.rows, wanted.rows);
     EXPECT_EQ(array_of<std::int64_t>(found, "id"), array_of<std::int64_t>(wanted, "id")) << style;
     EXPECT_EQ(array_of<std::int32_t>(found, "type"), array_of<std::int32_t>(wanted, "type"))
@@ -82,14 +82,14 @@ TEST(DataParticles, AsTheProgramsDumpThem)
 TEST(DataParticles, VelocitiesInAnyOrder)
 {
   DataRun run(write_data(three("atomic", rows, "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));
-  const granular::DataFrame frame = run.read();
-  EXPECT_EQ(array_of(frame.particles, "v"), (Numbers{ 3, 3, 3, 1, 1, 1, 2, 2, 2 }));
-  EXPECT_EQ(frame.particles.header.box.boundary, "ff pp pp");
-  granular::DataRequest request;
-  request.particles.sort_by_id = true;
-  EXPECT_EQ(array_of(run.read(request).particles, "v"), (Numbers{ 1, 1, 1, 2, 2, 2, 3, 3, 3 }));
-  request.particles.stride = 2;
-  EXPECT_EQ(array_of(run.read(request).particles, "v"), (Numbers{ 2, 2, 2 }));
+  const granular::Tables frame = run.read();
+  EXPECT_EQ(array_of(frame.rows, "v"), (Numbers{ 3, 3, 3, 1, 1, 1, 2, 2, 2 }));
+  EXPECT_EQ(frame.rows.header.box.boundary, "ff pp pp");
+  granular::Request request;
+  request.sort_by_id = true;
+  EXPECT_EQ(array_of(run.read(request).rows, "v"), (Numbers{ 1, 1, 1, 2, 2, 2, 3, 3, 3 }));
+  request.stride = 2;
+  EXPECT_EQ(array_of(run.read(request).rows, "v"), (Numbers{ 2, 2, 2 }));
 }
 
 TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
@@ -97,14 +97,14 @@ TEST(DataParticles, TwoOfOneIdHaveOneVelocity)
   const std::string path =
     write_data(three("atomic", "3 1 3 0 0\n2 1 1 0 0\n2 2 2 0 0\n", "2 2 2 2\n3 3 3 3\n1 1 1 1\n"));
   DataRun run(path);
-  EXPECT_EQ(array_of(run.read().particles, "v"), (Numbers{ 3, 3, 3, 2, 2, 2, 2, 2, 2 }));
+  EXPECT_EQ(array_of(run.read().rows, "v"), (Numbers{ 3, 3, 3, 2, 2, 2, 2, 2, 2 }));
   EXPECT_EQ(run.said(),
     "rows of the section Velocities that are left out, as their particle is not there: 1\n"
     "particles that have the id of another one, and its velocity: 1\n");
 
   DataRun other(path);
-  granular::DataRequest request;
-  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "id"; };
+  granular::Request request;
+  request.wanted = [](std::string_view name, bool) { return name == "id"; };
   other.read(request);
   EXPECT_EQ(other.said(), "");
 }
@@ -119,15 +119,15 @@ TEST(DataParticles, Ellipsoids)
       shapes;
   };
   DataRun run(write_data(text("2 4 5 6 0.5 -0.5 0.5 -0.5 8 2.5\n3 1 2 3 1 0 0 0 2 20\n")));
-  const granular::DumpFrame frame = run.read().particles;
+  const granular::Table frame = run.read().rows;
   EXPECT_EQ(array_of(frame, "shape"), (Numbers{ 1, 2, 3, 0, 0, 0, 4, 5, 6 }));
   EXPECT_EQ(array_of(frame, "quat"), (Numbers{ 1, 0, 0, 0, 1, 0, 0, 0, 0.5, -0.5, 0.5, -0.5 }));
   EXPECT_EQ(array_of(frame, "blockiness"), (Numbers{ 2, 20, 2, 2, 8, 2.5 }));
   EXPECT_EQ(frame.schema.text().substr(frame.schema.text().find("shapex")),
     "shapex shapey shapez quatw quati quatj quatk block1 block2");
-  granular::DataRequest request;
-  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "quat"; };
-  EXPECT_EQ(names_of(run.read(request).particles), "quat");
+  granular::Request request;
+  request.wanted = [](std::string_view name, bool) { return name == "quat"; };
+  EXPECT_EQ(names_of(run.read(request).rows), "quat");
   EXPECT_EQ(run.said(), "");
 
   const auto error = [&](const std::string& shapes) { return data_error(text(shapes)); };
@@ -139,10 +139,10 @@ TEST(DataParticles, Ellipsoids)
     ":18: column 'id': expected one row of each particle in the section Ellipsoids, got another "
     "one of particle 3; the first is in line 17");
   DataRun some(write_data(text("3 1 2 3 1 0 0 0 8 8\n2 1 2 3 1 0 0 0\n")));
-  EXPECT_EQ(array_of(some.read().particles, "shape"), (Numbers{ 1, 2, 3, 0, 0, 0, 1, 2, 3 }));
+  EXPECT_EQ(array_of(some.read().rows, "shape"), (Numbers{ 1, 2, 3, 0, 0, 0, 1, 2, 3 }));
   EXPECT_NE(some.said().find("got more in some rows"), std::string::npos) << some.said();
   DataRun stranger(write_data(text("2 4 5 6 1 0 0 0\n4 1 2 3 1 0 0 0\n")));
-  EXPECT_EQ(array_of(stranger.read().particles, "shape"), (Numbers{ 0, 0, 0, 0, 0, 0, 4, 5, 6 }));
+  EXPECT_EQ(array_of(stranger.read().rows, "shape"), (Numbers{ 0, 0, 0, 0, 0, 0, 4, 5, 6 }));
   EXPECT_EQ(stranger.said(),
     "rows of the section Ellipsoids that are left out, as their particle is not there: 1\n");
 }
@@ -167,32 +167,30 @@ TEST(DataParticles, FilesAreLookedThroughOnce)
 TEST(DataParticles, WhatDumpsCanDo)
 {
   DataRun run(write_data(three("atomic", rows, "2 2 2 2\n3 3 3 3\n1 1 1 1\n")));
-  granular::DataRequest request;
-  request.particles.coordinates = granular::Coordinates::Unwrapped;
-  EXPECT_EQ(points_of(run.read(request).particles), (Numbers{ 3, 0, -10, 1, 20, 0, 2, 0, 0 }));
-  request.particles.coordinates = granular::Coordinates::Scaled;
-  EXPECT_EQ(points_of(run.read(request).particles), (Numbers{ 0.3, 0, 0, 0.1, 0, 0, 0.2, 0, 0 }));
+  granular::Request request;
+  request.coordinates = granular::Coordinates::Unwrapped;
+  EXPECT_EQ(points_of(run.read(request).rows), (Numbers{ 3, 0, -10, 1, 20, 0, 2, 0, 0 }));
+  request.coordinates = granular::Coordinates::Scaled;
+  EXPECT_EQ(points_of(run.read(request).rows), (Numbers{ 0.3, 0, 0, 0.1, 0, 0, 0.2, 0, 0 }));
   request = {};
-  request.particles.point_origin = { 1, 1, 1 };
-  request.particles.region = { 1.5, 9, 1, -1, 1, -1 };
-  const granular::DumpFrame some = run.read(request).particles;
+  request.point_origin = { 1, 1, 1 };
+  request.region = { 1.5, 9, 1, -1, 1, -1 };
+  const granular::Table some = run.read(request).rows;
   EXPECT_EQ(points_of(some), (Numbers{ 2, -1, -1, 1, -1, -1 }));
   EXPECT_EQ(array_of(some, "v"), (Numbers{ 3, 3, 3, 2, 2, 2 }));
+  EXPECT_EQ(run.read({}, { .boundary = "p f f" }).rows.header.box.boundary, "pp ff ff");
   request = {};
-  request.boundary = "p f f";
-  EXPECT_EQ(run.read(request).particles.header.box.boundary, "pp ff ff");
-  request = {};
-  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "v"; };
-  EXPECT_EQ(names_of(run.read(request).particles), "v"); // by ids that nobody sees
-  request.particles.wanted = [](const granular::ArrayInfo& array) { return array.name == "type"; };
-  EXPECT_EQ(names_of(run.read(request).particles), "type");
+  request.wanted = [](std::string_view name, bool) { return name == "v"; };
+  EXPECT_EQ(names_of(run.read(request).rows), "v"); // by ids that nobody sees
+  request.wanted = [](std::string_view name, bool) { return name == "type"; };
+  EXPECT_EQ(names_of(run.read(request).rows), "type");
 }
 
 // A rank alone that wants pieces: each particle and bond once.
 TEST(DataParticles, Pieces)
 {
   DataRun run(good_data("data_file/full.data"));
-  const granular::DataFrame whole = run.read();
+  const granular::Tables whole = run.read();
   for (const int pieces : { 2, 3, 7, 50 })
   {
     Ids ids;
@@ -200,20 +198,20 @@ TEST(DataParticles, Pieces)
     Ids bonds;
     for (int piece = 0; piece < pieces; ++piece)
     {
-      granular::DataRequest request;
-      request.particles.piece = piece;
-      request.particles.pieces = pieces;
-      const granular::DataFrame part = run.read(request);
+      granular::Request request;
+      request.piece = piece;
+      request.pieces = pieces;
+      const granular::Tables part = run.read(request);
       const auto add = [](auto& all, const auto& some)
       { all.insert(all.end(), some.begin(), some.end()); };
-      add(ids, array_of<std::int64_t>(part.particles, "id"));
-      add(v, array_of(part.particles, "v"));
-      add(bonds, array_of<std::int64_t>(part.bonds.table, "bond_id"));
-      EXPECT_EQ(part.bonds.lines.count, part.bonds.table.rows);
-      EXPECT_EQ(part.particles.header.rows, 40);
+      add(ids, array_of<std::int64_t>(part.rows, "id"));
+      add(v, array_of(part.rows, "v"));
+      add(bonds, array_of<std::int64_t>(part.bonds, "bond_id"));
+      EXPECT_EQ(part.bonds.lines.count, part.bonds.rows);
+      EXPECT_EQ(part.rows.header.rows, 40);
     }
-    EXPECT_EQ(ids, array_of<std::int64_t>(whole.particles, "id")) << pieces;
-    EXPECT_EQ(v, array_of(whole.particles, "v")) << pieces;
+    EXPECT_EQ(ids, array_of<std::int64_t>(whole.rows, "id")) << pieces;
+    EXPECT_EQ(v, array_of(whole.rows, "v")) << pieces;
     EXPECT_EQ(bonds, (Ids{ 1, 2, 3 })) << pieces;
   }
 }
@@ -240,8 +238,7 @@ TEST(DataParticles, Errors)
     ":12: column 'type': expected a number, got 'C'");
   EXPECT_EQ(data_error(data_text(1, "Atoms # sphere\n\n1 1 0,3 1 0 0 0\n")),
     ":11: column 'diameter': expected a number, got '0,3'");
-  granular::DataRequest request;
-  request.boundary = "periodic";
-  EXPECT_NE(data_error(data_text(0, ""), request).find("expected boundaries as in 'pp pp ff'"),
+  EXPECT_NE(data_error(data_text(0, ""), { .boundary = "periodic" })
+              .find("expected boundaries as in 'pp pp ff'"),
     std::string::npos);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is required of subdomains: that they have bounds, do not overlap and leave no gaps.
-#include "granular/decomposition/subdomains.h"
+#include "granular/grid/subdomains.h"
 
 #include "../support/stop.h"
 #include "made_subdomains.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in grids and in other subdomains, against every particle compared with every face.
-#include "granular/decomposition/count_particles.h"
+#include "granular/subdomains/count_particles.h"
 #include "../support/error_of.h"
 #include "../support/exact_units.h"
 #include "../support/hard_case.h"

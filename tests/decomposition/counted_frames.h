@@ -3,7 +3,7 @@
 #ifndef tests_decomposition_counted_frames_h
 #define tests_decomposition_counted_frames_h
 
-#include "granular/decomposition/count_particles.h"
+#include "granular/subdomains/count_particles.h"
 
 #include <algorithm>
 #include <array>

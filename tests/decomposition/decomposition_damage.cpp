@@ -5,7 +5,7 @@
 
 #include "../support/byte_source_packing.h"
 
-#include "granular/decomposition/vtu_grids.h"
+#include "granular/formats/decomposition/vtu_grids.h"
 
 #include <gtest/gtest.h>
 

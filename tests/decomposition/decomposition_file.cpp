@@ -5,7 +5,7 @@
 #include "../support/counting_source.h"
 #include "../support/stop.h"
 
-#include "granular/decomposition/vtu_grids.h"
+#include "granular/formats/decomposition/vtu_grids.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The text of decompositions: the bytes of LIGGGHTS, and those that VTK's own writer makes of the same cells.
-#include "granular/decomposition/decomposition_text.h"
+#include "granular/formats/decomposition/decomposition_text.h"
 
 #include "../support/error_of.h"
 #include "../support/stop.h"

@@ -5,7 +5,7 @@
 
 #include "../support/memory_file.h"
 
-#include "granular/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/decomposition_file.h"
 
 #include <cstdint>
 #include <string>

@@ -3,7 +3,7 @@
 #ifndef tests_decomposition_made_subdomains_h
 #define tests_decomposition_made_subdomains_h
 
-#include "granular/decomposition/subdomains.h"
+#include "granular/grid/subdomains.h"
 
 #include <array>
 #include <cstddef>

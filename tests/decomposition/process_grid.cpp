@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids of processes: those that LAMMPS and LIGGGHTS choose, cuts where they put them, and grids found again.
-#include "granular/decomposition/process_grid.h"
+#include "granular/grid/process_grid.h"
 #include "made_subdomains.h"
 
 #include "../support/error_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/decomposition/subdomains.h"
+#include "granular/grid/subdomains.h"
 
 #include "../support/quad.h"
 #include "made_subdomains.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/decomposition/voxels.h"
+#include "granular/formats/decomposition/voxels.h"
 
 #include "../support/stop.h"
 #include "made_subdomains.h"

@@ -2,7 +2,7 @@
 // .vtu files in every form that VTK's writer has, by hand, and wrong.
 #include "grid_files.h"
 
-#include "granular/decomposition/vtu_grids.h"
+#include "granular/formats/decomposition/vtu_grids.h"
 
 #include <gtest/gtest.h>
 

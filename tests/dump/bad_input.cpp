@@ -2,7 +2,7 @@
 // What is said of the files of tests/data/bad, to the letter: this is what a user sees.
 #include "../support/dumps.h"
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ void open(granular::RunIndex& index, const std::string& path)
   index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
 }
 
-granular::DumpFrame read(const granular::RunIndex& index, std::size_t frame)
+granular::Table read(const granular::RunIndex& index, std::size_t frame)
 {
   granular::Notices notices;
   granular::Progress progress;

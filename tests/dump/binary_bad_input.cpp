@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary dumps that are damaged, cut or still being written: every one is an error that names a place,
 // or the frames that are whole; never more memory than the file is worth.
-#include "granular/dump/formats/binary_dump.h"
-#include "granular/dump/formats/binary_header.h"
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/binary_dump.h"
+#include "granular/formats/dump/grammar/binary_header.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Binary dumps of every layout and byte order, put together byte by byte.
-#include "granular/dump/formats/binary_dump.h"
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/binary_dump.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
-#include "granular/dump/formats/binary_header.h"
+#include "granular/formats/dump/grammar/binary_header.h"
 #include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"
@@ -21,6 +21,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -31,7 +32,7 @@ using binary::forms;
 using binary::Frame;
 using granular::ArrayInfo;
 using granular::Coordinates;
-using granular::DumpRequest;
+using granular::Request;
 using granular::ValueType;
 using Doubles = std::vector<double>;
 using Integers = std::vector<std::int64_t>;
@@ -429,7 +430,7 @@ TEST(BinaryDump, FramesWithoutRows)
       expect_layout(dump, form);
       for (const std::size_t frame : { 0u, 2u })
       {
-        DumpRequest request;
+        Request request;
         for (const bool sort : { false, true })
         {
           request.sort_by_id = sort;
@@ -759,7 +760,7 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
   index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") },
     { .format = &granular::dump_format() }, notices, progress);
   Decoded got;
-  DumpRequest request;
+  Request request;
   request.sort_by_id = true;
   got.frame = read_dump(index.pieces(0), request, got.notices, progress);
   EXPECT_EQ(got.integers("id"), (Integers{ 1, 2, 3, 4 }));
@@ -908,7 +909,7 @@ TEST(BinaryDump, ImagesThatAreNoIntegersMoveThePointsAllTheSame)
   const Form& form = binary::form("plain, little-endian");
   const Dump dump = one_frame_of(
     form, "id type x y z ix iy iz", 8, { 1, 1, 0.25, 0.5, 0.75, 1, 0.5, 4294967296.0 });
-  DumpRequest request;
+  Request request;
   request.coordinates = Coordinates::Unwrapped;
   const Decoded got = dump.read(request);
   EXPECT_EQ(got.points(), (Doubles{ 1.25, 1, 4294967296.75 }));
@@ -948,14 +949,14 @@ TEST(BinaryDump, IdsThatAreNoIntegersAreNotSortedBy)
       ": column 'id': expected an integer, got '1.5'; the column is kept as doubles\n";
     const std::string no_sort =
       "memory@0: expected a column id to sort by, got none; the order is the file's\n";
-    DumpRequest request;
+    Request request;
     request.sort_by_id = true;
     const Decoded got = dump.read(request);
     EXPECT_EQ(got.values("id"), (Doubles{ 3, 1.5, 1, 2 }));
     EXPECT_EQ(got.points(), (Doubles{ 30, 0, 0, 15, 0, 0, 10, 0, 0, 20, 0, 0 }));
     EXPECT_EQ(got.said(), said + no_sort);
     // the same where the ids are no array
-    request.wanted = [](const ArrayInfo& array) { return array.name == "type"; };
+    request.wanted = [](std::string_view name, bool) { return name == "type"; };
     const Decoded none = dump.read(request);
     EXPECT_EQ(none.points(), got.points());
     EXPECT_EQ(none.said(), said + no_sort);
@@ -971,8 +972,8 @@ TEST(BinaryDump, ColumnsThatNobodyWantsMayHoldAnything)
 {
   const Form& form = binary::form("plain, big-endian");
   const Dump dump = one_frame_of(form, "id type x y z", 5, { not_a_number, 0.5, 1, 2, 3 });
-  DumpRequest request;
-  request.wanted = [](const ArrayInfo&) { return false; };
+  Request request;
+  request.wanted = [](std::string_view, bool) { return false; };
   const Decoded got = dump.read(request);
   EXPECT_EQ(got.said(), "");
   EXPECT_EQ(got.points(), (Doubles{ 1, 2, 3 }));
@@ -995,7 +996,7 @@ TEST(BinaryDump, RowsChosenAndSorted)
       chunk.insert(chunk.end(), { id, 1, static_cast<double>(row), 0.5, id });
     }
     const Dump dump(binary::write(form, { frame }).bytes, "id type x y z");
-    DumpRequest request;
+    Request request;
     request.stride = 3;
     request.sort_by_id = true;
     request.region = { 1000, 6000, 1, -1, 1, -1 };

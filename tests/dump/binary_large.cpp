@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of more than 2^31 values and files of more than 4 GiB: sparse files, whose holes read as
 // zeros.
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"
@@ -16,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -121,9 +122,9 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
   EXPECT_EQ(index.first_piece(0).entry.rows, rows);
 
   const std::int64_t before = restart_peak();
-  granular::DumpRequest request;
+  granular::Request request;
   request.stride = 1 << 30;
-  request.wanted = [](const granular::ArrayInfo&) { return false; };
+  request.wanted = [](std::string_view, bool) { return false; };
   Stop stop(3);
   EXPECT_THROW(read_dump(index.pieces(0), request, notices, stop), granular::Cancelled);
   EXPECT_GT(stop.last, 0);

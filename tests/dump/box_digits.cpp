@@ -12,7 +12,7 @@
 namespace
 {
 using granular::Coordinates;
-using granular::DumpRequest;
+using granular::Request;
 
 std::string printed(const char* format, double value)
 {
@@ -60,7 +60,7 @@ TEST(BoxDigits, EveryFormOfScaledCoordinates)
 {
   const auto tells = [](const Dump& dump, Coordinates coordinates = Coordinates::Absolute)
   {
-    DumpRequest request;
+    Request request;
     request.coordinates = coordinates;
     return dump.read(request).said().find("by up to 0.005 along") != std::string::npos;
   };

@@ -23,15 +23,15 @@
 namespace
 {
 using granular::ByteSource;
-using granular::DumpRequest;
 using granular::Notices;
 using granular::Progress;
+using granular::Request;
 
 constexpr std::pair<int, std::size_t> manners[] = { { 1, 1 }, { 1, 50 }, { 2, 7 }, { 2, 64 },
   { 3, 50 }, { 4, 23 }, { 5, 300 }, { 3, std::size_t{ 1 } << 18 } };
 
 /// What the plain reading gives, after all others gave the same.
-Outcome same_outcome(const ReadFrame& read, const DumpRequest& request = {})
+Outcome same_outcome(const ReadFrame& read, const Request& request = {})
 {
   const Outcome whole = outcome_of(read, plainly(request));
   for (const auto& [threads, chunk] : manners)
@@ -44,7 +44,7 @@ Outcome same_outcome(const ReadFrame& read, const DumpRequest& request = {})
 
 ReadFrame reading(const Dump& dump, std::size_t frame = 0)
 {
-  return [&dump, frame](const DumpRequest& request, Notices& notices)
+  return [&dump, frame](const Request& request, Notices& notices)
   {
     Decoded decoded = dump.read(request, frame);
     notices = decoded.notices;
@@ -66,7 +66,7 @@ TEST(FrameFaults, FilesOfBadData)
     const std::string refused = error_of([&] { dump.emplace(data_file(name)); });
     for (std::size_t frame = 0; refused.empty() && frame < dump->frames(); ++frame)
     {
-      for (const DumpRequest& request : { DumpRequest{}, everything() })
+      for (const Request& request : { Request{}, everything() })
       {
         errors += same_outcome(reading(*dump, frame), request).error.empty() ? 0 : 1;
       }
@@ -261,7 +261,7 @@ void expect_no_crash(const std::string& bytes, const Dump& dump)
 {
   for (const std::string& other : changed(bytes))
   {
-    for (DumpRequest request : { DumpRequest{}, all_requests()[3], all_requests()[8] })
+    for (Request request : { Request{}, all_requests()[3], all_requests()[8] })
     {
       for (const auto& [threads, chunk] :
         std::vector<std::pair<int, std::size_t>>{ { 1, 100 }, { 3, 40 }, { 2, 1 << 18 } })
@@ -276,8 +276,7 @@ void expect_no_crash(const std::string& bytes, const Dump& dump)
           Progress progress;
           try
           {
-            const granular::DumpFrame frame =
-              read_dump(liar, dump.entry(), request, notices, progress);
+            const granular::Table frame = read_dump(liar, dump.entry(), request, notices, progress);
             EXPECT_LE(frame.rows, dump.entry().rows);
             EXPECT_TRUE(
               request.pieces > 1 || request.stride > 1 || frame.rows == dump.entry().rows);
@@ -316,7 +315,7 @@ TEST(FrameFaults, OneReadAtATime)
   for (const int threads : { 1, 2, 5 })
   {
     const Liar honest(text, text, 0, false);
-    DumpRequest request = in_chunks({}, threads, 30);
+    Request request = in_chunks({}, threads, 30);
     request.stride = 3;
     request.pieces = 2;
     request.piece = 1;
@@ -332,7 +331,7 @@ TEST(FrameFaults, AReadThatFailsAmongOthers)
 {
   const std::string text = with_rows(3, "9 1 0 0 0 1", 50, "");
   const Dump dump(text);
-  for (const DumpRequest& request : all_requests())
+  for (const Request& request : all_requests())
   {
     for (const int threads : { 1, 2, 4 })
     {
@@ -342,7 +341,7 @@ TEST(FrameFaults, AReadThatFailsAmongOthers)
       {
         const FailsOnce source(text, at);
         const Outcome outcome = outcome_of(
-          [&](const DumpRequest& own, Notices& notices)
+          [&](const Request& own, Notices& notices)
           {
             Progress progress;
             return read_dump(source, dump.entry(), own, notices, progress);
@@ -366,7 +365,7 @@ TEST(FrameFaults, RowsThatCameOrWent)
     EXPECT_EQ(other.size(), text.size());
     const auto source = granular::open_memory(other);
     return same_outcome(
-      [&](const DumpRequest& request, Notices& notices)
+      [&](const Request& request, Notices& notices)
       {
         Progress progress;
         return read_dump(*source, dump.entry(), request, notices, progress);
@@ -437,7 +436,7 @@ private:
     for (const auto& [threads, chunk] : ways)
     {
       const Outcome outcome = outcome_of(
-        [&](const DumpRequest& request, Notices& notices)
+        [&](const Request& request, Notices& notices)
         {
           Progress progress;
           return read_dump(series_.index.pieces(0), request, notices, progress);
@@ -505,22 +504,21 @@ TEST(FrameFaults, TheFirstPieceThatIsWrongIsNamed)
 TEST(FrameFaults, StoppedAtEveryReport)
 {
   const Dump dump(with_rows(3, "9 2.5 0 0 0 wet", 50, ""));
-  DumpRequest request = all_requests()[3];
+  Request request = all_requests()[3];
   request.pieces = 2;
   request.piece = 1;
-  for (const DumpRequest& one : { DumpRequest{}, request, all_requests()[4], all_requests()[8] })
+  for (const Request& one : { Request{}, request, all_requests()[4], all_requests()[8] })
   {
     const Outcome whole = outcome_of(reading(dump), one);
     for (const int threads : { 1, 2, 3, 4 })
     {
-      const DumpRequest small = in_chunks(one, threads, 100);
+      const Request small = in_chunks(one, threads, 100);
       int at = 0;
       for (bool stopped = true; stopped; ++at)
       {
         Stop stop(at);
-        const Outcome outcome = outcome_of([&](const DumpRequest& asked, Notices&)
-          { return dump.read(asked, 0, stop).frame; },
-          small);
+        const Outcome outcome = outcome_of(
+          [&](const Request& asked, Notices&) { return dump.read(asked, 0, stop).frame; }, small);
         stopped = stop.reports > at;
         EXPECT_EQ(outcome.error, stopped ? "cancelled" : "");
         EXPECT_TRUE(stopped || stop.last == 1);

@@ -17,29 +17,29 @@
 
 namespace
 {
-using granular::DumpRequest;
 using granular::Notices;
 using granular::Progress;
+using granular::Request;
 
 /// Compares a frame read in all manners with the plain one. bytes is its size.
 void expect_same_in_all_manners(const ReadFrame& read, std::size_t bytes)
 {
   const std::size_t small = std::max<std::size_t>(64, bytes / 100);
   int manner = 0;
-  for (const DumpRequest& request : all_requests())
+  for (const Request& request : all_requests())
   {
     const Outcome whole = outcome_of(read, plainly(request));
     ASSERT_EQ(whole.error, "");
     for (const auto& [threads, chunk] :
       std::vector<std::pair<int, std::size_t>>{ { 1, small }, { 2, small }, { 5, 1000 }, { 3, 0 } })
     {
-      const DumpRequest other = chunk > 0 ? in_chunks(request, threads, chunk) : request;
+      const Request other = chunk > 0 ? in_chunks(request, threads, chunk) : request;
       EXPECT_EQ(outcome_of(read, other).difference(whole), "")
         << "request " << manner << ", " << threads << " threads, chunks of " << chunk;
     }
     for (const int pieces : { 2, 3, 7, manner % 3 == 0 ? 64 : 20 })
     {
-      const DumpRequest other =
+      const Request other =
         in_chunks(request, 1 + pieces % 3, pieces > 7 ? std::size_t{ 1 } << 18 : 1000);
       EXPECT_EQ(outcome_of_parts(read, other, pieces).difference(whole), "")
         << "request " << manner << ", " << pieces << " pieces";
@@ -52,7 +52,7 @@ void expect_same_in_all_manners(const Dump& dump)
 {
   const std::size_t frame = dump.frames() - 1;
   expect_same_in_all_manners(
-    [&](const DumpRequest& request, Notices& notices)
+    [&](const Request& request, Notices& notices)
     {
       Decoded decoded = dump.read(request, frame);
       notices = decoded.notices;
@@ -116,7 +116,7 @@ void expect_files_the_same(const Files& files, const std::string& column_names =
   series.update(files);
   ASSERT_EQ(series.said, "");
   expect_same_in_all_manners(
-    [&](const DumpRequest& request, Notices& notices)
+    [&](const Request& request, Notices& notices)
     {
       Progress progress;
       return read_dump(series.index.pieces(series.index.size() - 1), request, notices, progress);
@@ -180,13 +180,13 @@ void expect_same_in_small_chunks(const std::string& bytes, const std::string& na
 {
   const Dump dump(bytes, names);
   ASSERT_GE(dump.frames(), 1u);
-  const ReadFrame read = [&](const DumpRequest& request, Notices& notices)
+  const ReadFrame read = [&](const Request& request, Notices& notices)
   {
     Decoded decoded = dump.read(request);
     notices = decoded.notices;
     return std::move(decoded.frame);
   };
-  for (DumpRequest request : { everything(), all_requests()[3], all_requests()[8] })
+  for (Request request : { everything(), all_requests()[3], all_requests()[8] })
   {
     const Outcome whole = outcome_of(read, plainly(request));
     ASSERT_EQ(whole.error, "");
@@ -215,7 +215,7 @@ void expect_ids(const std::string& bytes, const Ids& ids)
   Ids of_parts;
   for (int piece = 0; piece < 5; ++piece)
   {
-    DumpRequest request = in_chunks({}, 2, 16);
+    Request request = in_chunks({}, 2, 16);
     request.piece = piece;
     request.pieces = 5;
     const Ids part = dump.read(request).integers("id");
@@ -290,7 +290,7 @@ TEST(FrameParts, TheLongestRow)
   for (const std::size_t chunk : { std::size_t{ 1 } << 18, std::size_t{ 3'000'000 },
          std::size_t{ 1 } << 22, std::size_t{ 1 } << 40, ~std::size_t{} })
   {
-    const DumpRequest request = in_chunks({}, 2, chunk);
+    const Request request = in_chunks({}, 2, chunk);
     EXPECT_EQ(good.read(request).integers("id"), Ids({ 1, 2, 3 }));
     EXPECT_EQ(
       bad.error(request), "memory:11: expected a row of at most 4194304 bytes, got a longer one");
@@ -310,9 +310,8 @@ TEST(FrameParts, RowsOfVeryDifferentLengths)
     rows += std::to_string(id) + " 0 0 0" + std::string(900, ' ') + "\n";
   }
   const Dump dump(one_frame("id x y z", rows));
-  const ReadFrame read = [&](const DumpRequest& request, Notices&)
-  { return dump.read(request).frame; };
-  for (const DumpRequest& request : all_requests())
+  const ReadFrame read = [&](const Request& request, Notices&) { return dump.read(request).frame; };
+  for (const Request& request : all_requests())
   {
     const Outcome whole = outcome_of(read, plainly(request));
     EXPECT_EQ(outcome_of_parts(read, in_chunks(request, 3, 5000), 2).difference(whole), "");
@@ -363,7 +362,7 @@ TEST(FrameParts, StrideWithoutIdsCountsTheRowsOfTheFrame)
     std::vector<double> points;
     for (int piece = 0; piece < pieces; ++piece)
     {
-      DumpRequest request = in_chunks({}, 1 + piece % 3, 40);
+      Request request = in_chunks({}, 1 + piece % 3, 40);
       request.stride = 9;
       request.piece = piece;
       request.pieces = pieces;
@@ -396,10 +395,10 @@ TEST(FrameParts, BinaryRunsOfAllSizes)
     ASSERT_EQ(row, 40u);
     const binary::Bytes bytes = binary::write(form, { frame });
     const Dump dump(bytes.bytes, binary::names_for(form));
-    const ReadFrame read = [&](const DumpRequest& request, Notices&)
+    const ReadFrame read = [&](const Request& request, Notices&)
     { return dump.read(request).frame; };
     EXPECT_EQ(dump.read(in_chunks({}, 3, 100)).values("id"), frame.values(0));
-    for (const DumpRequest& request : all_requests())
+    for (const Request& request : all_requests())
     {
       const Outcome whole = outcome_of(read, plainly(request));
       ASSERT_EQ(whole.error, "");
@@ -418,7 +417,7 @@ TEST(FrameParts, BinaryRunsOfAllSizes)
 TEST(FrameParts, APieceThatIsNone)
 {
   const Dump dump(one_frame("id x y z", "7 0 0 0\n"));
-  DumpRequest request;
+  Request request;
   request.pieces = 3;
   for (const int piece : { -1, 3 })
   {

@@ -14,10 +14,10 @@
 namespace
 {
 using granular::Communicator;
-using granular::DumpRequest;
 using granular::FramePiece;
 using granular::Notices;
 using granular::Progress;
+using granular::Request;
 
 /// Stops when it should.
 class Stop final : public Progress
@@ -30,12 +30,12 @@ public:
 
 /// One rank's reading.
 Outcome read_rank(
-  const std::vector<FramePiece>& pieces, DumpRequest request, Communicator& ranks, bool stop)
+  const std::vector<FramePiece>& pieces, Request request, Communicator& ranks, bool stop)
 {
   request.piece = ranks.rank();
   request.pieces = ranks.size();
   return outcome_of(
-    [&](const DumpRequest& own, Notices& notices)
+    [&](const Request& own, Notices& notices)
     {
       Stop progress;
       progress.stop = stop;
@@ -45,8 +45,8 @@ Outcome read_rank(
 }
 
 /// Parts of all ranks, put together. Notices and errors must be the same on all.
-Outcome read_together(const std::vector<FramePiece>& pieces, const DumpRequest& request, int size,
-  int stopped_rank = -1)
+Outcome read_together(
+  const std::vector<FramePiece>& pieces, const Request& request, int size, int stopped_rank = -1)
 {
   std::vector<Outcome> outcomes(static_cast<std::size_t>(size));
   run_ranks(size,
@@ -72,10 +72,10 @@ Outcome read_together(const std::vector<FramePiece>& pieces, const DumpRequest& 
 void expect_same_on_ranks(const Series& series, std::size_t frame = 0)
 {
   const std::vector<FramePiece> pieces = series.index.pieces(frame);
-  for (const DumpRequest& request : all_requests())
+  for (const Request& request : all_requests())
   {
     const Outcome whole = outcome_of(
-      [&](const DumpRequest& own, Notices& notices)
+      [&](const Request& own, Notices& notices)
       {
         Progress progress;
         return read_dump(pieces, own, notices, progress);
@@ -83,7 +83,7 @@ void expect_same_on_ranks(const Series& series, std::size_t frame = 0)
       plainly(request));
     for (int size = 1; size <= 5; ++size)
     {
-      const DumpRequest small = in_chunks(request, 1 + size % 3, 700);
+      const Request small = in_chunks(request, 1 + size % 3, 700);
       EXPECT_EQ(read_together(pieces, small, size).difference(whole), "") << size << " ranks";
     }
   }
@@ -165,7 +165,7 @@ TEST(FrameRanks, AnErrorOfOneIsThatOfAll)
     folder.write("a.dump", rows_with({ { 45, "420 1 0 zero 0 1" }, { 85, "1.5 1 0 0 0 1" } }));
   const Series series = index_of({ path });
   const std::string said = path + ":55: column 'y': expected a number, got 'zero'";
-  for (const DumpRequest& request : { DumpRequest{}, all_requests()[3] })
+  for (const Request& request : { Request{}, all_requests()[3] })
   {
     EXPECT_EQ(read_together(series.index.pieces(0), request, 1).error, said);
     EXPECT_EQ(read_together(series.index.pieces(0), request, 3).error, said + " (on rank 1 of 3)");

@@ -2,7 +2,7 @@
 // Files above 4 GiB, made as they are read: a row repeated without end between real frames.
 #include "../support/dumps.h"
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST(LargeFile, TrapOffsetsAndLinesAbove32Bits)
   EXPECT_EQ(index.resume_offset, large_end + static_cast<std::int64_t>(back.size()));
 
   granular::Notices notices;
-  granular::DumpRequest request;
+  granular::Request request;
   EXPECT_EQ(
     error_of([&] { granular::read_dump(source, index.frames[2], request, notices, progress); }),
     "large:" + std::to_string(10 + 9 + count + 9 + 2) +

@@ -7,7 +7,7 @@
 #include "../support/counting_source.h"
 #include "../support/many_columns.h"
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a frame becomes: arrays, points, rows chosen, rows sorted.
-#include "granular/dump/formats/dump_files.h"
-#include "granular/dump/read/dump_reader.h"
+#include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/formats/dump/read/dump_reader.h"
 
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
@@ -16,51 +16,52 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
 {
 using granular::ArrayInfo;
 using granular::Coordinates;
-using granular::DumpRequest;
+using granular::Request;
 using granular::ValueType;
 using Doubles = std::vector<double>;
 using Integers = std::vector<std::int64_t>;
 using Texts = std::vector<std::string>;
 
-DumpRequest with_coordinates(Coordinates coordinates)
+Request with_coordinates(Coordinates coordinates)
 {
-  DumpRequest request;
+  Request request;
   request.coordinates = coordinates;
   return request;
 }
 
-DumpRequest with_stride(std::int64_t stride)
+Request with_stride(std::int64_t stride)
 {
-  DumpRequest request;
+  Request request;
   request.stride = stride;
   return request;
 }
 
-DumpRequest with_region(const std::array<double, 6>& region)
+Request with_region(const std::array<double, 6>& region)
 {
-  DumpRequest request;
+  Request request;
   request.region = region;
   return request;
 }
 
-DumpRequest sorted()
+Request sorted()
 {
-  DumpRequest request;
+  Request request;
   request.sort_by_id = true;
   return request;
 }
 
-DumpRequest wanting(const std::vector<std::string>& names)
+Request wanting(const std::vector<std::string>& names)
 {
-  DumpRequest request;
-  request.wanted = [names](const ArrayInfo& array)
-  { return std::find(names.begin(), names.end(), array.name) != names.end(); };
+  Request request;
+  request.wanted = [names](std::string_view name, bool)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
   return request;
 }
 
@@ -216,7 +217,7 @@ TEST(ReadDump, CoordinateColumnsAsArraysAndAsPoints)
 {
   const Dump dump(
     one_frame("id x y z xs ys zs", "1 5 10 20 0.5 0.25 0.125\n", " pp pp pp\n0 10\n0 40\n0 160\n"));
-  DumpRequest request = everything();
+  Request request = everything();
   request.coordinates = Coordinates::Absolute;
   request.point_origin = { 1, 2, 3 };
   const Decoded frame = dump.read(request);
@@ -318,7 +319,7 @@ TEST(ReadDump, PointOriginIsSubtractedBeforeRounding)
 {
   const Dump dump(
     one_frame("x y z", "1000000.0123456789 -1e6 0.1\n", " ff ff ff\n0 2e6\n-2e6 0\n0 1\n"));
-  DumpRequest request;
+  Request request;
   request.single_precision = true;
   request.point_origin = { 1e6, -1e6, 0.1 };
   const std::vector<float> points = dump.read(request).single_points();
@@ -410,7 +411,7 @@ TEST(ReadDump, StrideSeesLinesOfOtherLengths)
     EXPECT_EQ(Dump(more).read(with_stride(2)).said(), Dump(more).read().said()) << row;
     EXPECT_NE(Dump(more).read(with_stride(2)).said(), "") << row;
     const std::string fewer = text(row, " 1 2");
-    const auto error = [&](const DumpRequest& request)
+    const auto error = [&](const Request& request)
     { return error_of([&] { Dump(fewer).read(request); }); };
     EXPECT_EQ(error(with_stride(2)), error({})) << row;
     EXPECT_NE(error({}), "") << row;
@@ -430,9 +431,8 @@ TEST(ReadDump, StrideByRowWhereThereAreNoIds)
 TEST(ReadDump, StrideByIdThatIsNoArray)
 {
   const Dump dump(many_rows(7000));
-  DumpRequest request = with_stride(5);
-  request.wanted = [](const ArrayInfo& array)
-  { return array.name != "id" && !array.position_form; };
+  Request request = with_stride(5);
+  request.wanted = [](std::string_view name, bool is_usual) { return name != "id" && is_usual; };
   const Decoded frame = dump.read(request);
   EXPECT_FALSE(frame.has("id"));
   expect_rows(frame, 7000, [](std::int64_t row) { return id_of(row) % 5 == 0; });
@@ -487,7 +487,7 @@ TEST(ReadDump, RegionIsInAbsoluteCoordinatesBeforeThePointOrigin)
 {
   const Dump dump(
     one_frame("id xs ys zs ix iy iz", "1 0.5 0.5 0.5 3 0 0\n2 0.1 0.5 0.5 0 0 0\n", wide_box));
-  DumpRequest request = with_region({ 14, 16, 1, -1, 1, -1 });
+  Request request = with_region({ 14, 16, 1, -1, 1, -1 });
   request.point_origin = { 100, 100, 100 };
   for (const Coordinates coordinates :
     { Coordinates::Absolute, Coordinates::Unwrapped, Coordinates::Scaled })
@@ -500,7 +500,7 @@ TEST(ReadDump, RegionIsInAbsoluteCoordinatesBeforeThePointOrigin)
 TEST(ReadDump, RegionWhereThereAreNoAbsoluteCoordinatesIsSaid)
 {
   const Dump dump(one_frame("id xu yu zu", "1 45 0 1\n2 15 0 1\n", wide_box));
-  DumpRequest request = with_region({ 40, 50, 1, -1, 1, -1 });
+  Request request = with_region({ 40, 50, 1, -1, 1, -1 });
   request.coordinates = Coordinates::Unwrapped;
   const Decoded frame = dump.read(request);
   EXPECT_EQ(frame.integers("id"), Integers{ 1 });
@@ -525,7 +525,7 @@ TEST(ReadDump, StrideAndRegionAndSort)
 {
   const std::int64_t count = 7000;
   const Dump dump(many_rows(count));
-  DumpRequest request = with_region({ 100, 6000, 1, -1, 1, -1 });
+  Request request = with_region({ 100, 6000, 1, -1, 1, -1 });
   request.stride = 3;
   request.sort_by_id = true;
   request.coordinates = Coordinates::Unwrapped;
@@ -585,7 +585,7 @@ TEST(ReadDump, RowsOfTheSameIdKeepTheirOrder)
 
 TEST(ReadDump, SortsByAnIdThatIsNoArray)
 {
-  DumpRequest request = wanting({ "q" });
+  Request request = wanting({ "q" });
   request.sort_by_id = true;
   const Decoded frame =
     Dump(one_frame("id x y z q", "3 0 0 0 30\n1 0 0 0 10\n2 0 0 0 20\n")).read(request);
@@ -669,7 +669,7 @@ TEST(ReadDump, MisfitsDeepInTheFrameWithFilters)
     rows +=
       std::to_string(row) + (row == 4500 ? " 2.5" : " 2") + " 0 0 0 e" + std::to_string(row) + "\n";
   }
-  DumpRequest request = with_stride(4);
+  Request request = with_stride(4);
   const Decoded frame = Dump(one_frame("id type x y z element", rows)).read(request);
   EXPECT_EQ(frame.rows(), 1250);
   EXPECT_EQ(frame.values("type")[1125], 2.5);
@@ -889,7 +889,7 @@ TEST(ReadDump, AFileThatIsShortenedWhileItIsRead)
 TEST(ReadDump, TrapFramesWithoutAtomsWithEveryRequest)
 {
   const Dump dump(one_frame("id x y z element vx vy vz", ""));
-  DumpRequest request = with_region({ 0, 1, 0, 1, 0, 1 });
+  Request request = with_region({ 0, 1, 0, 1, 0, 1 });
   request.stride = 3;
   request.sort_by_id = true;
   request.single_precision = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of tests/data/good: runs that LAMMPS and LIGGGHTS wrote in many forms at once. All forms
 // must show the same particles, as far as their digits go.
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/run_index.h"
 
 #include "../support/dumps.h"
@@ -26,7 +26,7 @@
 namespace
 {
 using granular::Coordinates;
-using granular::DumpRequest;
+using granular::Request;
 using Doubles = std::vector<double>;
 using Integers = std::vector<std::int64_t>;
 using Exact3 = std::array<Exact, 3>;
@@ -351,7 +351,7 @@ std::vector<Table> exact_tables(const std::string& run)
 
 Decoded read(const Dump& dump, std::size_t frame, Coordinates coordinates)
 {
-  DumpRequest request;
+  Request request;
   request.coordinates = coordinates;
   return dump.read(request, frame);
 }
@@ -671,7 +671,7 @@ TEST(RealFiles, CompressedFilesOneAStep)
       for (const Coordinates coordinates : { Coordinates::Absolute, Coordinates::Scaled })
       {
         Decoded got;
-        DumpRequest request;
+        Request request;
         request.coordinates = coordinates;
         got.frame = read_dump(pieces, request, got.notices, progress);
         EXPECT_EQ(got.said(), "");
@@ -777,7 +777,7 @@ granular::IndexOptions with_names(const std::string& names)
   return options;
 }
 
-Decoded read(const granular::RunIndex& index, std::size_t frame, const DumpRequest& request)
+Decoded read(const granular::RunIndex& index, std::size_t frame, const Request& request)
 {
   granular::Progress progress;
   Decoded got;
@@ -911,7 +911,7 @@ TEST(RealFiles, PiecesOfLiggghts)
           ASSERT_EQ(values[row], printed[frame].rows.at(ids[row]).at(name)) << name;
         }
       }
-      DumpRequest sorted;
+      Request sorted;
       sorted.sort_by_id = true;
       std::sort(ids.begin(), ids.end());
       EXPECT_EQ(read(index, frame, sorted).integers("id"), ids);

@@ -132,9 +132,9 @@ std::string text_of(const Cube& cube, const char* columns = "x y z radius")
   return one_frame(columns, rows, " pp pp pp\n" + bounds + bounds + bounds);
 }
 
-DumpRequest single_at(double origin)
+Request single_at(double origin)
 {
-  DumpRequest request;
+  Request request;
   request.single_precision = true;
   request.point_origin = { origin, origin, origin };
   return request;
@@ -336,7 +336,7 @@ TEST(RoundingInReading, SinglePrecisionIsTold)
         " along , where the smallest radius is 0.0001; set PointOrigin near the particles, or "
         "PointPrecision=Double\n";
     EXPECT_EQ(without_axis(dump.read(single_at(origin)).said()), expected) << origin;
-    DumpRequest twofold = single_at(origin);
+    Request twofold = single_at(origin);
     twofold.single_precision = false;
     EXPECT_EQ(dump.read(twofold).said(), "") << origin;
   }
@@ -357,7 +357,7 @@ TEST(RoundingInReading, FormsAndFilters)
     const std::string said = dump.read(single_at(0)).said();
     EXPECT_NE(said.find("rounding to single precision moves points"), said.npos) << binary;
     EXPECT_EQ(dump.read(single_at(1e6)).said(), "");
-    DumpRequest units = single_at(0);
+    Request units = single_at(0);
     units.coordinates = Coordinates::Scaled;
     EXPECT_EQ(dump.read(units).said(), "");
   }
@@ -365,7 +365,7 @@ TEST(RoundingInReading, FormsAndFilters)
   const std::string far = "1 0.5 0.5 0.5 0.001\n2 1000000.3 0.5 0.5 0.001\n";
   const Dump rows(one_frame("id x y z radius", far));
   EXPECT_NE(rows.read(single_at(0)).said(), "");
-  DumpRequest filtered = single_at(0);
+  Request filtered = single_at(0);
   filtered.region = { 0, 1, 1, -1, 1, -1 };
   EXPECT_EQ(rows.read(filtered).said(), "");
 }
@@ -390,7 +390,7 @@ TEST(RoundingInReading, ABoxOfNoLength)
     "memory:1: expected a box with a length along x to scale coordinates by, got one of length 0");
   EXPECT_EQ(Dump(one_frame("x y z", rows, box)).error(), "");
   EXPECT_EQ(Dump(one_frame("xs ys zs", "", box)).error(), "") << "no particles, nothing to scale";
-  DumpRequest scaled;
+  Request scaled;
   scaled.coordinates = Coordinates::Scaled;
   EXPECT_NE(Dump(one_frame("x y z", rows, box)).error(scaled), "");
 }

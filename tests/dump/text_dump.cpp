@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Headers and frames of text dumps as the programs write them, and as users' tools change them.
-#include "granular/dump/formats/text_dump.h"
+#include "granular/formats/dump/grammar/text_dump.h"
 
 #include "../support/dumps.h"
 

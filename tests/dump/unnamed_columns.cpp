@@ -3,7 +3,7 @@
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/run_index.h"
 
 #include <gtest/gtest.h>

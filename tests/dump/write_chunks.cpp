@@ -4,8 +4,8 @@
 #include "../support/dumps.h"
 #include "../support/reference_dump.h"
 
-#include "granular/dump/write/encode_header.h"
-#include "granular/dump/write/row_batches.h"
+#include "granular/formats/dump/write/encode_header.h"
+#include "granular/formats/dump/write/row_batches.h"
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST(WriteChunks, fewest)
       {
         EXPECT_EQ(lengths[i], whole);
       }
-      DumpRequest request;
+      Request request;
       request.coordinates = Coordinates::Scaled;
       const Decoded read =
         Dump(written.bytes, image ? "id type xs ys zs ix iy iz" : "id type xs ys zs").read(request);

@@ -3,7 +3,7 @@
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/write/column_plan.h"
+#include "granular/formats/dump/write/column_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -422,7 +422,7 @@ TEST(WriteColumns, duplicates)
 {
   const std::string rows = "1 0.5 0.5 2 2.5 0.5\n2 0.25 0.25 3 3.5 0.25\n";
   const std::string text = one_frame("id c_a x c_b c_b x", rows);
-  for (const DumpRequest& request : { DumpRequest(), everything() })
+  for (const Request& request : { Request(), everything() })
   {
     const ReadFrameView read(Dump(text).read(request).frame);
     EXPECT_EQ(write(read.view, {}).body, "id c_a x c_b c_b x\n" + rows);

@@ -31,7 +31,7 @@ struct Loaded
   }
 };
 
-Loaded load(const std::string& file, const DumpRequest& request, const std::string& columns = "")
+Loaded load(const std::string& file, const Request& request, const std::string& columns = "")
 {
   Loaded loaded;
   loaded.bytes = data_file("good/" + file);
@@ -50,7 +50,7 @@ Loaded load(const std::string& file, const DumpRequest& request, const std::stri
 }
 
 /// Writes what was read in a format, and looks for the first byte that is another.
-std::string change(const std::string& file, const DumpRequest& request, DumpFormat format,
+std::string change(const std::string& file, const Request& request, DumpFormat format,
   const std::string& columns = "")
 {
   const Loaded loaded = load(file, request, columns);
@@ -87,17 +87,17 @@ DumpFormat binary_of(Dialect dialect)
   return format;
 }
 
-DumpRequest points_as(Coordinates coordinates)
+Request points_as(Coordinates coordinates)
 {
-  DumpRequest request;
+  Request request;
   request.coordinates = coordinates;
   return request;
 }
 
 /// All that a reader can make of the points, the numbers of the file beside them.
-std::vector<DumpRequest> requests()
+std::vector<Request> requests()
 {
-  std::vector<DumpRequest> requests;
+  std::vector<Request> requests;
   for (const Coordinates coordinates :
     { Coordinates::Absolute, Coordinates::Unwrapped, Coordinates::Scaled })
   {
@@ -144,7 +144,7 @@ TEST(WriteRealFiles, texts)
 /// images. The arrays of these columns bring the very numbers back, whatever the points were made to be.
 TEST(WriteRealFiles, forms_of_points)
 {
-  const std::vector<DumpRequest> all = requests();
+  const std::vector<Request> all = requests();
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     for (const std::string& file : liggghts_texts)
@@ -171,7 +171,7 @@ TEST(WriteRealFiles, forms_of_points_alone)
   for (const Coordinates coordinates :
     { Coordinates::Absolute, Coordinates::Unwrapped, Coordinates::Scaled })
   {
-    const DumpRequest request = points_as(coordinates);
+    const Request request = points_as(coordinates);
     for (const char* const file : { "grains.dump", "grains_2000.dump", "plain.dump" })
     {
       EXPECT_EQ(change(file, request, text_of(Dialect::Liggghts)), "") << file;

@@ -3,7 +3,7 @@
 #include "../support/dump_writing.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/write/encode_header.h"
+#include "granular/formats/dump/write/encode_header.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells, gathered from processes that are threads.
-#include "granular/euler/cells.h"
+#include "granular/grid/cells.h"
 
 #include "../support/thread_ranks.h"
 #include "gathered_cells.h"

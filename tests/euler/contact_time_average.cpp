@@ -2,8 +2,8 @@
 // Averages over time of contacts and of chosen fields, against those of all frames at once.
 #include "made_touches.h"
 
+#include "granular/averages/time_average.h"
 #include "granular/common/error.h"
-#include "granular/euler/time_average.h"
 
 #include "../support/hard_case.h"
 

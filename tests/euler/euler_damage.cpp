@@ -3,7 +3,7 @@
 // file was indexed at once or while it grew. Other damage is for the fuzz targets.
 #include "euler_files.h"
 
-#include "granular/euler/regular_grids.h"
+#include "granular/formats/euler/regular_grids.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "../support/stop.h"
 
 #include "granular/bytes/byte_source_unpack.h"
-#include "granular/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/decomposition_file.h"
 #include "granular/frames/named_steps.h"
 
 #include <gtest/gtest.h>

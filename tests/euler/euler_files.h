@@ -5,8 +5,8 @@
 
 #include "../support/memory_file.h"
 
-#include "granular/euler/cells.h"
-#include "granular/euler/euler_file.h"
+#include "granular/formats/euler/euler_file.h"
+#include "granular/grid/cells.h"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The text of Euler cells: the bytes of LIGGGHTS, those of printf, and all digits.
-#include "granular/euler/euler_text.h"
+#include "granular/formats/euler/euler_text.h"
 
 #include "../support/stop.h"
 #include "euler_files.h"

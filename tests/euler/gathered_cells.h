@@ -3,7 +3,7 @@
 #ifndef granular_tests_euler_gathered_cells_h
 #define granular_tests_euler_gathered_cells_h
 
-#include "granular/euler/cells.h"
+#include "granular/grid/cells.h"
 
 #include <gtest/gtest.h>
 

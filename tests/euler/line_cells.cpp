@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lengths of lines in cells, against clipping with 113 bits.
-#include "granular/contacts/line_cells.h"
+#include "granular/averages/line_cells.h"
 #include "granular/common/error.h"
 
 #include "../support/hard_case.h"

@@ -5,7 +5,7 @@
 
 #include "../support/big_sum.h"
 
-#include "granular/euler/average.h"
+#include "granular/averages/average.h"
 #include "granular/grid/sphere_box.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // Averages at points: the same bits for any order, threads and ranks; points and rows that are far away, broken or not there.
 #include "made_points.h"
 
+#include "granular/averages/point_sources.h"
 #include "granular/common/error.h"
-#include "granular/contacts/point_sources.h"
 
 #include "../support/thread_ranks.h"
 

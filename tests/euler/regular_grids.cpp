@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regular grids of cells are found from their centres with six decimals: those of LIGGGHTS, and made ones.
-#include "granular/euler/regular_grids.h"
+#include "granular/formats/euler/regular_grids.h"
 
 #include "euler_files.h"
 

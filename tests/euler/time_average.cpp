@@ -3,8 +3,8 @@
 #include "made_particles.h"
 #include "sphere_box_volume.h"
 
+#include "granular/averages/time_average.h"
 #include "granular/common/error.h"
-#include "granular/euler/time_average.h"
 
 #include "../support/hard_case.h"
 

@@ -7,10 +7,10 @@
 #include "../support/own_folder.h"
 
 #include "granular/common/error.h"
-#include "granular/dump/formats/dump_files.h"
-#include "granular/euler/euler_file.h"
+#include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/formats/euler/euler_file.h"
+#include "granular/formats/restart/restart_file.h"
 #include "granular/frames/run_index.h"
-#include "granular/restart/restart_file.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "../support/dumps.h"
 
-#include "granular/dump/formats/binary_header.h"
+#include "granular/formats/dump/grammar/binary_header.h"
 
 #include <gtest/gtest.h>
 

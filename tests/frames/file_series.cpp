@@ -14,6 +14,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -1081,7 +1082,7 @@ TEST(Pieces, GiveTheSameAsOneFileWithAllRows)
   whole.update({ folder.write("whole", text(0, rows)) });
   ASSERT_EQ(merged.index.pieces(0).size(), 6u);
 
-  std::vector<granular::DumpRequest> requests(10, everything());
+  std::vector<granular::Request> requests(10, everything());
   requests[1].sort_by_id = true;
   requests[2].stride = 7;
   requests[3].region = { -1, 0.5, 1, -1, 0, 3 };
@@ -1092,7 +1093,7 @@ TEST(Pieces, GiveTheSameAsOneFileWithAllRows)
   requests[5].point_origin = { 1, 2, 3 };
   requests[6].coordinates = granular::Coordinates::Scaled;
   requests[6].sort_by_id = true;
-  requests[7].wanted = [](const granular::ArrayInfo& info) { return info.name == "v"; };
+  requests[7].wanted = [](std::string_view name, bool) { return name == "v"; };
   requests[7].stride = 11;
   requests[7].sort_by_id = true;
   requests[8].stride = 20000; // nothing
@@ -1106,7 +1107,7 @@ TEST(Pieces, GiveTheSameAsOneFileWithAllRows)
     EXPECT_EQ(a.names(), b.names()) << i;
     EXPECT_EQ(a.said(), b.said()) << i;
     EXPECT_EQ(a.frame.schema.text(), b.frame.schema.text()) << i;
-    for (const granular::DumpArray& array : a.frame.arrays)
+    for (const granular::TableArray& array : a.frame.arrays)
     {
       const std::string& name = array.info.name;
       ASSERT_EQ(a.type(name), b.type(name)) << i << name;
@@ -1120,7 +1121,7 @@ TEST(Pieces, GiveTheSameAsOneFileWithAllRows)
       }
     }
   }
-  granular::DumpRequest single = requests[4];
+  granular::Request single = requests[4];
   single.single_precision = true;
   EXPECT_EQ(merged.read(0, single).single_points(), whole.read(0, single).single_points());
 }
@@ -1140,7 +1141,7 @@ TEST(Pieces, StrideWithoutIdsCountsTheRowsOfAll)
   Series run;
   run.update({ folder.write("p.0", text({ 0, 1, 2, 3 })), folder.write("p.1", text({})),
     folder.write("p.2", text({ 4 })), folder.write("p.3", text({ 5, 6, 7, 8, 9, 10 })) });
-  granular::DumpRequest request;
+  granular::Request request;
   request.stride = 3;
   EXPECT_EQ(
     run.read(0, request).points(), (std::vector<double>{ 0, 0, 0, 3, 0, 0, 6, 0, 0, 9, 0, 0 }));
@@ -1269,7 +1270,7 @@ TEST(Pieces, OfTheRealProgram)
   EXPECT_EQ(run.read(0).rows(), 0);
   for (const std::size_t frame : { 1u, 2u })
   {
-    granular::DumpRequest request;
+    granular::Request request;
     request.sort_by_id = true;
     const Decoded decoded = run.read(frame, request);
     EXPECT_EQ(decoded.integers("id"), ids_from(1, 1200));

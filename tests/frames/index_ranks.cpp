@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One index for all ranks: rank 0 makes it, and all can read every frame.
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/run_index.h"
 
 #include "../support/byte_source_packing.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An index does not depend on how many threads make it: of one file in which several pass over a frame,
 // and of many files.
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/file_index_archive.h"
 #include "granular/frames/run_index.h"
 #include "granular/frames/update_files.h"
@@ -342,7 +342,7 @@ TEST(IndexThreads, FramesOfCompressedFiles)
     EXPECT_EQ(run.index.files()[0].points != nullptr, file.points) << path;
     for (std::size_t i = 0; i < file.frames; ++i)
     {
-      granular::DumpRequest request = everything();
+      granular::Request request = everything();
       const Decoded alone = run.read(i, request);
       EXPECT_EQ(alone.rows(), 200'000);
       for (const int threads : { 2, 5 })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Series of files on disk, as a run writes them and as they change while somebody looks.
 #include "granular/frames/run_index.h"
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/series.h"

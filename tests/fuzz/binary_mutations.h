@@ -5,8 +5,8 @@
 
 #include "mutations.h"
 
-#include "granular/dump/formats/binary_header.h"
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/binary_header.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/file_index.h"
 
 #include <optional>

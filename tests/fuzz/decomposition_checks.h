@@ -6,10 +6,10 @@
 
 #include "dump_checks.h"
 
-#include "granular/decomposition/decomposition_file.h"
-#include "granular/decomposition/subdomains.h"
-#include "granular/decomposition/voxels.h"
+#include "granular/formats/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/voxels.h"
 #include "granular/frames/file_index.h"
+#include "granular/grid/subdomains.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -14,6 +14,7 @@
 #include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace granular
@@ -27,13 +28,13 @@ inline void require(bool good, const char* what)
   }
 }
 
-inline void check_frame(const DumpFrame& frame, const FrameEntry& entry, const DumpRequest& request)
+inline void check_frame(const Table& frame, const FrameEntry& entry, const Request& request)
 {
   const auto rows = static_cast<std::size_t>(frame.rows);
   const bool filtered = request.stride > 1 || request.region[0] <= request.region[1];
   require(frame.rows == entry.rows || (filtered && frame.rows < entry.rows), "rows");
   require(frame.points.bytes() == 3 * rows * (request.single_precision ? 4 : 8), "points");
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     if (array.info.type == ValueType::Text)
     {
@@ -63,7 +64,7 @@ struct Reading
   bool operator==(const Reading&) const = default;
 };
 
-inline std::string values_of(const DumpArray& array, std::int64_t rows)
+inline std::string values_of(const TableArray& array, std::int64_t rows)
 {
   if (array.info.type != ValueType::Text)
   {
@@ -86,13 +87,13 @@ inline const std::shared_ptr<BlockPool>& used_memory()
 }
 
 /// The bytes of all arrays of some tables.
-inline std::string content_of(std::initializer_list<const DumpFrame*> tables)
+inline std::string content_of(std::initializer_list<const Table*> tables)
 {
   std::string all;
-  for (const DumpFrame* const rows : tables)
+  for (const Table* const rows : tables)
   {
     all.append(static_cast<const char*>(rows->points.data()), rows->points.bytes());
-    for (const DumpArray& array : rows->arrays)
+    for (const TableArray& array : rows->arrays)
     {
       all += array.info.name + values_of(array, rows->rows);
     }
@@ -100,7 +101,7 @@ inline std::string content_of(std::initializer_list<const DumpFrame*> tables)
   return all;
 }
 
-inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, DumpRequest request,
+inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, Request request,
   int threads, std::size_t chunk_bytes)
 {
   request.threads = threads;
@@ -111,7 +112,7 @@ inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, Dum
   Progress progress;
   try
   {
-    const DumpFrame frame = read_dump(source, entry, request, notices, progress);
+    const Table frame = read_dump(source, entry, request, notices, progress);
     require(request.pieces > 1 || frame.rows <= entry.rows, "rows");
     if (request.pieces == 1)
     {
@@ -120,7 +121,7 @@ inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, Dum
     reading.schema = frame.schema;
     reading.values.emplace_back(
       static_cast<const char*>(frame.points.data()), frame.points.bytes());
-    for (const DumpArray& array : frame.arrays)
+    for (const TableArray& array : frame.arrays)
     {
       reading.values.push_back(values_of(array, frame.rows));
     }
@@ -138,7 +139,7 @@ inline Reading read_frame(const ByteSource& source, const FrameEntry& entry, Dum
 
 /// Three parts give the same rows. What is wrong in one, or another column in it, is not in all.
 inline void check_parts(
-  const ByteSource& source, const FrameEntry& entry, DumpRequest request, const Reading& whole)
+  const ByteSource& source, const FrameEntry& entry, Request request, const Reading& whole)
 {
   Reading all;
   all.values.resize(whole.values.size());
@@ -162,7 +163,7 @@ inline void check_parts(
 
 /// The same for any number of threads, of a file that is what it was.
 inline void check_readings(
-  const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+  const ByteSource& source, const FrameEntry& entry, const Request& request)
 {
   const Reading whole = read_frame(source, entry, request, 1, std::size_t{ 1 } << 18);
   require(read_frame(source, entry, request, 3, 16) == whole, "threads differ");
@@ -170,17 +171,16 @@ inline void check_readings(
 }
 
 /// Of a file that changed since.
-inline void check_changed(
-  const ByteSource& source, const FrameEntry& entry, const DumpRequest& request)
+inline void check_changed(const ByteSource& source, const FrameEntry& entry, const Request& request)
 {
   require(read_frame(source, entry, request, 1, 64) == read_frame(source, entry, request, 3, 64),
     "threads differ");
 }
 
-inline std::vector<DumpRequest> requests()
+inline std::vector<Request> requests()
 {
-  std::vector<DumpRequest> all(4);
-  all[1].wanted = [](const ArrayInfo&) { return true; };
+  std::vector<Request> all(4);
+  all[1].wanted = [](std::string_view, bool) { return true; };
   all[1].coordinates = Coordinates::Scaled;
   all[1].stride = 3;
   all[1].sort_by_id = true;
@@ -188,7 +188,7 @@ inline std::vector<DumpRequest> requests()
   all[2].single_precision = true;
   all[2].region = { -0.5, 0.5, 1, -1, 1, -1 };
   all[2].point_origin = { 1, 2, 3 };
-  all[3].wanted = [](const ArrayInfo&) { return false; };
+  all[3].wanted = [](std::string_view, bool) { return false; };
   all[3].sort_by_id = true;
   return all;
 }

@@ -6,8 +6,8 @@
 #include "dump_checks.h"
 
 #include "granular/common/words.h"
-#include "granular/dump/formats/binary_dump.h"
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/binary_dump.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/file_index.h"
 
 #include <algorithm>
@@ -76,11 +76,11 @@ void use(std::string_view bytes, std::string_view names)
     [](char& byte) { byte = static_cast<char>(byte ^ 0x11); });
   const auto other = open_memory(changed);
   const auto cut = open_memory(bytes.substr(0, bytes.size() - bytes.size() / 8));
-  static const std::vector<DumpRequest> every = requests();
+  static const std::vector<Request> every = requests();
   constexpr std::size_t most_frames = 8;
   for (std::size_t i = 0; i < std::min(all.frames.size(), most_frames); ++i)
   {
-    for (const DumpRequest& request : every)
+    for (const Request& request : every)
     {
       check_readings(*source, all.frames[i], request);
     }

@@ -3,8 +3,8 @@
 // are, there is an Error with a place, or as many rows as the header says; three parts have each row once.
 #include "dump_checks.h"
 
-#include "granular/data_file/data_file.h"
-#include "granular/data_file/read_data.h"
+#include "granular/formats/data_file/data_file.h"
+#include "granular/formats/data_file/read_data.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,37 +15,36 @@ using namespace granular;
 
 namespace
 {
-DataFrame read(const FramePiece& file, const DataRequest& request)
+Tables read(const FramePiece& file, const Request& request)
 {
   SerialCommunicator alone;
   Notices notices;
   Progress progress;
-  return read_data(file, request, alone, notices, progress);
+  return read_data(file, {}, request, alone, notices, progress);
 }
 
 void check(const FramePiece& file)
 {
-  DataRequest request;
-  request.particles.threads = 2;
-  request.particles.chunk_bytes = 64;
-  const DataFrame whole = read(file, request);
-  check_frame(whole.particles, file.entry, request.particles);
-  require(whole.bonds.lines.count >= whole.bonds.table.rows, "a line for each bond");
+  Request request;
+  request.threads = 2;
+  request.chunk_bytes = 64;
+  const Tables whole = read(file, request);
+  check_frame(whole.rows, file.entry, request);
+  require(whole.bonds.lines.count >= whole.bonds.rows, "a line for each bond");
   std::int64_t particles = 0;
   std::int64_t bonds = 0;
-  request.particles.pool = used_memory();
-  const DataFrame again = read(file, request);
-  require(content_of({ &again.particles, &again.bonds.table }) ==
-      content_of({ &whole.particles, &whole.bonds.table }),
+  request.pool = used_memory();
+  const Tables again = read(file, request);
+  require(content_of({ &again.rows, &again.bonds }) == content_of({ &whole.rows, &whole.bonds }),
     "what was read depends on the memory");
-  request.particles.pieces = 3;
-  for (int& piece = request.particles.piece; piece < 3; ++piece)
+  request.pieces = 3;
+  for (int& piece = request.piece; piece < 3; ++piece)
   {
-    const DataFrame part = read(file, request);
-    particles += part.particles.rows;
-    bonds += part.bonds.table.rows;
+    const Tables part = read(file, request);
+    particles += part.rows.rows;
+    bonds += part.bonds.rows;
   }
-  require(particles == whole.particles.rows && bonds == whole.bonds.table.rows, "rows of parts");
+  require(particles == whole.rows.rows && bonds == whole.bonds.rows, "rows of parts");
 }
 }
 

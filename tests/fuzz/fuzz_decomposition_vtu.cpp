@@ -4,7 +4,7 @@
 #include "decomposition_checks.h"
 #include "mutations.h"
 
-#include "granular/vtk_files/vtk_xml.h"
+#include "granular/formats/vtk_files/vtk_xml.h"
 
 #include <zlib.h>
 

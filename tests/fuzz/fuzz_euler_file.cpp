@@ -4,8 +4,8 @@
 // was always as long.
 #include "dump_checks.h"
 
-#include "granular/euler/euler_file.h"
-#include "granular/euler/regular_grids.h"
+#include "granular/formats/euler/euler_file.h"
+#include "granular/formats/euler/regular_grids.h"
 #include "granular/frames/file_index.h"
 
 #include <cstddef>

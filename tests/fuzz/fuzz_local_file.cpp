@@ -4,9 +4,9 @@
 // and a file that grew is indexed as one that was always as long, if there is nothing to be said of it.
 #include "dump_checks.h"
 
-#include "granular/local/local_columns.h"
-#include "granular/local/local_file.h"
-#include "granular/local/local_reader.h"
+#include "granular/formats/local/local_file.h"
+#include "granular/formats/local/local_reader.h"
+#include "granular/lines/line_columns.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -62,12 +62,13 @@ void index(std::string_view text, FileIndex& index)
   require(index.resume_offset >= 0 && index.resume_offset <= size, "where to go on");
 }
 
-LocalFrame read(const RunIndex& run, std::size_t frame, LocalRequest request)
+Table read(const RunIndex& run, std::size_t frame, const std::vector<std::string>& names,
+  const Request& request)
 {
   SerialCommunicator alone;
   Notices notices;
   Progress progress;
-  return read_local(run.pieces(frame), request, alone, notices, progress);
+  return read_local(run.pieces(frame), names, request, alone, notices, progress);
 }
 
 /// Guesses names from the rows; where they tell nothing, from the columns alone.
@@ -99,18 +100,18 @@ void check(const RunIndex& run, std::size_t number)
   {
     rows += piece.entry.rows;
   }
-  LocalRequest request;
-  request.columns = guess_names(run, run.first_piece(number));
-  request.lines.threads = 2;
-  request.wanted = [](std::string_view) { return true; };
+  const std::vector<std::string> names = guess_names(run, run.first_piece(number));
+  Request request;
+  request.threads = 2;
+  request.wanted = [](std::string_view, bool) { return true; };
   for (const auto periodic : { PeriodicLines::MinimumImage, PeriodicLines::Split })
   {
-    request.lines.periodic = periodic;
+    request.periodic_lines = periodic;
     try
     {
-      const LocalFrame frame = read(run, number, request);
-      require(frame.table.rows == rows, "rows");
-      for (const DumpArray& array : frame.table.arrays)
+      const Table frame = read(run, number, names, request);
+      require(frame.rows == rows, "rows");
+      for (const TableArray& array : frame.arrays)
       {
         const bool words = array.info.type == ValueType::Text;
         const std::size_t size = words ? sizeof(std::int32_t) : size_of(array.info.type);
@@ -124,18 +125,18 @@ void check(const RunIndex& run, std::size_t number)
       require(frame.lines.points.bytes() == static_cast<std::size_t>(frame.lines.count) * 48,
         "ends of lines");
       std::int64_t parts = 0;
-      LocalRequest part = request;
+      Request part = request;
       part.pieces = 2;
       for (part.piece = 0; part.piece < 2; ++part.piece)
       {
-        parts += read(run, number, part).table.rows;
+        parts += read(run, number, names, part).rows;
       }
       require(parts == rows, "rows of parts");
       part = request;
-      part.lines.pool = used_memory();
-      const LocalFrame again = read(run, number, part);
-      require(content_of({ &again.table }) == content_of({ &frame.table }),
-        "what was read depends on the memory");
+      part.pool = used_memory();
+      const Table again = read(run, number, names, part);
+      require(
+        content_of({ &again }) == content_of({ &frame }), "what was read depends on the memory");
     }
     catch (const FormatError& error)
     {

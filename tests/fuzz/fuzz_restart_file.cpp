@@ -5,8 +5,8 @@
 #include "dump_checks.h"
 #include "restart_mutations.h"
 
-#include "granular/restart/restart_file.h"
-#include "granular/restart/restart_reader.h"
+#include "granular/formats/restart/restart_file.h"
+#include "granular/formats/restart/restart_reader.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,56 +44,57 @@ void check(const RestartLayout& layout, std::int64_t size)
 }
 
 /// What came of reading: all arrays, or what is wrong.
-std::string content_of(const RestartFrame& frame)
+std::string content_of(const Tables& frame)
 {
-  std::string all = granular::content_of({ &frame.particles, &frame.bonds.table });
+  std::string all = granular::content_of({ &frame.rows, &frame.bonds });
   return all.append(
     static_cast<const char*>(frame.bonds.lines.points.data()), frame.bonds.lines.points.bytes());
 }
 
-RestartFrame read(
-  const ByteSource& source, const RestartLayout& layout, const RestartRequest& request)
+Tables read(
+  const ByteSource& source, const RestartLayout& layout, int history_layout, const Request& request)
 {
   Notices notices;
   Progress progress;
-  RestartFrame frame = read_restart(source, layout, request, notices, progress);
+  Tables frame = read_restart(source, layout, history_layout, request, notices, progress);
   FrameEntry entry;
-  entry.rows = frame.particles.rows;
-  check_frame(frame.particles, entry, {});
-  require(frame.bonds.table.rows <= frame.bonds.lines.count || !frame.bonds.has_lines,
-    "a line for each bond");
+  entry.rows = frame.rows.rows;
+  check_frame(frame.rows, entry, {});
+  require(
+    frame.bonds.rows <= frame.bonds.lines.count || !frame.bonds.has_lines, "a line for each bond");
   return frame;
 }
 
-void check_reading(const ByteSource& source, const RestartLayout& layout, RestartRequest request)
+void check_reading(
+  const ByteSource& source, const RestartLayout& layout, int history_layout, Request request)
 {
-  request.lines.threads = 1;
-  const RestartFrame whole = read(source, layout, request);
-  require(whole.particles.rows == layout.records, "the particles");
-  request.lines.threads = 3;
-  request.lines.pool = used_memory();
-  require(content_of(read(source, layout, request)) == content_of(whole), "threads differ");
+  request.threads = 1;
+  const Tables whole = read(source, layout, history_layout, request);
+  require(whole.rows.rows == layout.records, "the particles");
+  request.threads = 3;
+  request.pool = used_memory();
+  require(content_of(read(source, layout, history_layout, request)) == content_of(whole),
+    "threads differ");
   std::int64_t particles = 0;
   std::int64_t bonds = 0;
   request.pieces = 3;
   for (; request.piece < request.pieces; ++request.piece)
   {
-    const RestartFrame part = read(source, layout, request);
-    particles += part.particles.rows;
-    bonds += part.bonds.table.rows;
+    const Tables part = read(source, layout, history_layout, request);
+    particles += part.rows.rows;
+    bonds += part.bonds.rows;
   }
-  require(particles == whole.particles.rows && bonds == whole.bonds.table.rows, "rows of parts");
+  require(particles == whole.rows.rows && bonds == whole.bonds.rows, "rows of parts");
 }
 
-std::vector<RestartRequest> restart_requests()
+std::vector<Request> restart_requests()
 {
-  std::vector<RestartRequest> all(3);
+  std::vector<Request> all(3);
   all[1].bonds = false;
-  all[1].wanted = [](std::string_view name) { return name.size() % 2 == 0; };
-  all[2].history_layout = numbered_history;
-  all[2].wanted = [](std::string_view) { return false; };
-  all[2].lines.periodic = PeriodicLines::Split;
-  all[2].lines.point_origin = { 1, 2, 3 };
+  all[1].wanted = [](std::string_view name, bool) { return name.size() % 2 == 0; };
+  all[2].wanted = [](std::string_view, bool) { return false; };
+  all[2].periodic_lines = PeriodicLines::Split;
+  all[2].point_origin = { 1, 2, 3 };
   return all;
 }
 }
@@ -113,9 +114,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const RestartLayout layout = read_layout(*source, notices, progress);
     check(layout, static_cast<std::int64_t>(size));
     require(index.frames.size() == 1, "a file that can be read is a frame");
-    for (const RestartRequest& request : restart_requests())
+    for (const Request& request : restart_requests())
     {
-      check_reading(*source, layout, request);
+      const bool plain = request.periodic_lines == PeriodicLines::MinimumImage;
+      check_reading(*source, layout, plain ? automatic_history : numbered_history, request);
     }
   }
   catch (const Error& error)

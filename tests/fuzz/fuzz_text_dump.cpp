@@ -4,9 +4,9 @@
 // the rows alike; and a binary dump of the same numbers gives the same arrays.
 #include "dump_checks.h"
 
-#include "granular/dump/formats/dump_files.h"
-#include "granular/dump/formats/text_dump.h"
-#include "granular/dump/write/encode_header.h"
+#include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/formats/dump/grammar/text_dump.h"
+#include "granular/formats/dump/write/encode_header.h"
 #include "granular/text/line_scan.h"
 #include "granular/text/row_text.h"
 
@@ -103,7 +103,7 @@ void index(std::string_view text, FileIndex& index)
   }
 }
 
-double number_of(const DumpArray& array, std::size_t at)
+double number_of(const TableArray& array, std::size_t at)
 {
   const auto* const bytes =
     static_cast<const char*>(array.block.data()) + at * size_of(array.info.type);
@@ -130,12 +130,12 @@ std::optional<std::string> as_binary(const ByteSource& source, const FrameEntry&
 {
   constexpr std::int64_t most_values = 1 << 14;
   constexpr double largest_integer = 9007199254740992.0;
-  DumpRequest request;
+  Request request;
   request.points = false; // coordinates are columns like others
-  request.wanted = [](const ArrayInfo&) { return true; };
+  request.wanted = [](std::string_view, bool) { return true; };
   Notices notices;
   Progress progress;
-  DumpFrame frame;
+  Table frame;
   try
   {
     frame = read_dump(source, entry, request, notices, progress);
@@ -155,7 +155,7 @@ std::optional<std::string> as_binary(const ByteSource& source, const FrameEntry&
   }
   std::vector<double> values(
     static_cast<std::size_t>(frame.rows) * names.size(), std::numeric_limits<double>::quiet_NaN());
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     const std::size_t width = array.info.columns.size();
     const bool derived = array.info.scale != 1; // a radius, beside its diameter
@@ -202,7 +202,7 @@ std::optional<std::string> as_binary(const ByteSource& source, const FrameEntry&
 
 /// The same numbers, text and binary, give the same arrays.
 void compare_with_binary(
-  const ByteSource& text, const FrameEntry& entry, const std::vector<DumpRequest>& every)
+  const ByteSource& text, const FrameEntry& entry, const std::vector<Request>& every)
 {
   const auto bytes = as_binary(text, entry);
   if (!bytes)
@@ -216,7 +216,7 @@ void compare_with_binary(
   require(binary.frames.size() == 1, "a binary frame of the same numbers");
   require(binary.frames[0].rows == entry.rows && binary.frames[0].timestep == entry.timestep,
     "the same frame");
-  for (const DumpRequest& request : every)
+  for (const Request& request : every)
   {
     constexpr std::size_t chunk = std::size_t{ 1 } << 18;
     const Reading one = read_frame(text, entry, request, 1, chunk);
@@ -240,12 +240,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   index(text, grown);
 
   const auto source = open_memory(text);
-  static const std::vector<DumpRequest> every = requests();
+  static const std::vector<Request> every = requests();
   constexpr std::size_t most_frames = 8;
   for (std::size_t i = 0; i < std::min(all.frames.size(), most_frames); ++i)
   {
     const FrameEntry& entry = all.frames[i];
-    for (const DumpRequest& request : every)
+    for (const Request& request : every)
     {
       check_readings(*source, entry, request);
     }

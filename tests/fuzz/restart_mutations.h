@@ -7,8 +7,8 @@
 
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
-#include "granular/restart/header_fields.h"
-#include "granular/restart/restart_layout.h"
+#include "granular/formats/restart/header_fields.h"
+#include "granular/formats/restart/restart_layout.h"
 
 #include <algorithm>
 #include <optional>

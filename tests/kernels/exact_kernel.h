@@ -3,8 +3,8 @@
 #ifndef granular_tests_kernels_exact_kernel_h
 #define granular_tests_kernels_exact_kernel_h
 
+#include "granular/averages/kernel.h"
 #include "granular/geometry/box.h"
-#include "granular/kernels/kernel.h"
 
 #include "../support/quad.h"
 

@@ -5,8 +5,8 @@
 
 #include "exact_kernel.h"
 
+#include "granular/averages/smooth_cells.h"
 #include "granular/grid/euler_grid.h"
-#include "granular/kernels/smooth_cells.h"
 
 #include <array>
 #include <cmath>

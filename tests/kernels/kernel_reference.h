@@ -3,9 +3,9 @@
 #ifndef granular_tests_kernels_kernel_reference_h
 #define granular_tests_kernels_kernel_reference_h
 
+#include "granular/averages/kernel.h"
 #include "granular/bytes/byte_source.h"
 #include "granular/geometry/box.h"
-#include "granular/kernels/kernel.h"
 
 #include <gtest/gtest.h>
 

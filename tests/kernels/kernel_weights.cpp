@@ -2,8 +2,8 @@
 // Particles and contacts divided by a kernel, with their periodic images, and where the kernel has no cell.
 #include "exact_parts.h"
 
-#include "granular/contacts/line_cells.h"
-#include "granular/euler/particle_cells.h"
+#include "granular/averages/line_cells.h"
+#include "granular/averages/particle_cells.h"
 #include "granular/grid/sphere_box.h"
 
 #include "../support/hard_case.h"

@@ -57,30 +57,32 @@ ROOMS = {room: words.split() for room, words in (
     ("geometry", "common columns"),
     ("parallel", "common bytes"),
     ("text", "common numbers bytes parallel"),
-    ("vtk_files", "common numbers bytes geometry"),
+    ("mpi", "common bytes parallel"),
     ("frames", "common columns numbers bytes geometry parallel text"),
     ("particles", "common columns numbers memory geometry parallel frames"),
     ("sorting", "common memory parallel particles"),
-    ("dump/formats", "common numbers bytes text frames"),
-    ("dump/read", "common columns numbers bytes memory geometry parallel text frames particles sorting "
-                  "dump/formats"),
     ("writing", "common bytes parallel frames"),
-    ("dump/write", "common numbers bytes geometry parallel frames particles sorting writing"),
+    ("lines", "common columns numbers bytes memory geometry parallel frames particles"),
+    ("grid", "common numbers bytes memory geometry parallel particles"),
+    ("formats/dump/grammar", "common numbers bytes text frames"),
+    ("formats/dump/read", "common columns numbers bytes memory geometry parallel text frames particles sorting "
+                          "formats/dump/grammar"),
+    ("formats/dump/write", "common numbers bytes geometry parallel frames particles sorting writing"),
+    ("formats/vtk_files", "common numbers bytes geometry"),
+    ("formats/local", "common columns numbers bytes memory geometry parallel text frames particles lines "
+                      "formats/dump/grammar formats/dump/read"),
+    ("formats/data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting lines "
+                          "formats/dump/read"),
+    ("formats/restart", "common numbers bytes memory geometry parallel frames particles lines"),
+    ("formats/euler", "common numbers bytes memory geometry parallel frames particles grid formats/vtk_files"),
+    ("formats/decomposition", "common numbers bytes memory geometry parallel frames particles grid formats/vtk_files"),
+    ("runs", "common columns bytes memory geometry parallel frames particles lines grid formats/dump/grammar formats/dump/read "
+             "formats/local formats/data_file formats/restart formats/euler formats/decomposition"),
+    ("subdomains", "common numbers memory geometry parallel frames particles grid"),
     ("packing", "common memory geometry parallel particles"),
-    ("decomposition", "common numbers bytes memory geometry parallel vtk_files frames particles"),
-    ("grid", "common numbers geometry particles"),
-    ("kernels", "common numbers geometry grid"),
-    ("euler", "common numbers bytes memory geometry parallel vtk_files frames particles sorting grid kernels"),
-    ("local", "common columns numbers bytes memory geometry parallel text frames particles dump/formats "
-              "dump/read"),
-    ("restart", "common numbers bytes memory geometry parallel frames particles local"),
-    ("data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting "
-                  "dump/read local"),
-    ("runs", "common columns bytes memory geometry parallel frames particles dump/formats dump/read decomposition euler local "
-             "restart data_file"),
-    ("paths", "common columns numbers memory geometry parallel frames particles sorting dump/read local"),
-    ("contacts", "common memory geometry parallel frames particles sorting grid kernels euler local"),
-    ("mpi", "common bytes parallel"),
+    ("contacts", "common memory geometry parallel frames particles sorting grid lines"),
+    ("averages", "common numbers memory geometry parallel frames particles sorting lines grid contacts"),
+    ("paths", "common columns numbers memory geometry parallel frames particles sorting lines formats/dump/read"),
 )}
 MOST_FILES = 40
 

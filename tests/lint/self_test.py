@@ -146,12 +146,12 @@ class Layering(unittest.TestCase):
             core__granular__bytes__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
             core__granular__memory__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
             core__granular__parallel__executor_dot_cpp="#include <sched.h>\n",
-            core__granular__dump__read__r_dot_cpp='#include "granular/dump/formats/f.h"\n'
-            '#include "granular/dump/write/w.h"\n#include "r.h"\n',
+            core__granular__formats__dump__read__r_dot_cpp='#include "granular/formats/dump/grammar/f.h"\n'
+            '#include "granular/formats/dump/write/w.h"\n#include "r.h"\n',
             core__granular__dump__d_dot_cpp='#include "granular/common/c.h"\n',
             core__granular__euler__e_dot_cpp='#include "granular/frames/f.h"\n#include <mpi.h>\n',
-            core__granular__restart__r_dot_cpp='#include "granular/local/b.h"\n',
-            core__bonds__b_dot_cpp='#include "granular/restart/r.h"\n#include "granular/mpi/m.h"\n',
+            core__granular__formats__restart__r_dot_cpp='#include "granular/formats/local/b.h"\n',
+            core__bonds__b_dot_cpp='#include "granular/formats/restart/r.h"\n#include "granular/mpi/m.h"\n',
             core__bonds__granular_bonds_dot_h="#include <stdint.h>\n#include <vector>\n",
             core__granular__mpi__m_dot_cpp='#include <mpi.h>\n#include "granular/bytes/b.h"\n'
             '#include "granular/frames/d.h"\n'), [
@@ -160,7 +160,7 @@ class Layering(unittest.TestCase):
                 "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_zstd.cpp:2",
                 "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/compression.cpp:2",
                 "core/granular/bytes/inflate.cpp:2", "core/granular/dump/d.cpp:1",
-                "core/granular/dump/read/r.cpp:2", "core/granular/dump/read/r.cpp:3",
+                "core/granular/formats/dump/read/r.cpp:2", "core/granular/formats/dump/read/r.cpp:3",
                 "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
 
     def test_rooms(self):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines joined with the particles at their ends: what a std::map finds, in exact numbers.
-#include "granular/local/join.h"
+#include "granular/lines/join.h"
 
-#include "granular/local/id_finder.h"
+#include "granular/lines/id_finder.h"
 
 #include "../support/error_of.h"
 #include "../support/stop.h"

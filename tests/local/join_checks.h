@@ -3,7 +3,7 @@
 #ifndef granular_tests_local_join_checks_h
 #define granular_tests_local_join_checks_h
 
-#include "granular/local/join.h"
+#include "granular/lines/join.h"
 
 #include <gtest/gtest.h>
 

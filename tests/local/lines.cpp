@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/local/lines.h"
+#include "granular/lines/lines.h"
 
-#include "granular/local/minimum_image.h"
+#include "granular/lines/minimum_image.h"
 #include "granular/memory/block_pool.h"
 
 #include "../support/hard_case.h"
@@ -26,11 +26,11 @@ namespace
 {
 using granular::Box;
 using granular::BoxCounts;
-using granular::LineRequest;
 using granular::Lines;
 using granular::MinimumImage;
 using granular::PeriodicLines;
 using granular::Progress;
+using granular::Request;
 using granular::Vector3;
 using Points = std::vector<Vector3>;
 using Quad3 = std::array<Quad, 3>;
@@ -56,8 +56,8 @@ struct Made
 Made make(const Points& first, const Points& second, const Box& box, PeriodicLines periodic,
   const Vector3& point_origin = {}, int threads = 1)
 {
-  LineRequest request;
-  request.periodic = periodic;
+  Request request;
+  request.periodic_lines = periodic;
   request.point_origin = point_origin;
   request.threads = threads;
   Progress progress;
@@ -532,8 +532,8 @@ TEST(Lines, ThreadsChangeNothing)
 TEST(Lines, CanBeStopped)
 {
   const std::vector<double> ends(3 * 100000, 1.);
-  LineRequest request;
-  request.periodic = PeriodicLines::Split;
+  Request request;
+  request.periodic_lines = PeriodicLines::Split;
   for (const int steps : { 0, 1, 9 })
   {
     Stop progress(steps);
@@ -546,7 +546,7 @@ TEST(Lines, CanBeStopped)
 TEST(Lines, MemoryComesFromThePool)
 {
   const std::vector<double> ends(3 * 300000, 1.);
-  LineRequest request;
+  Request request;
   request.pool = std::make_shared<granular::BlockPool>(std::size_t{ 1 } << 30);
   Progress progress;
   {

@@ -66,28 +66,26 @@ std::vector<std::string> write_all(const std::string& folder, const Form& form)
 }
 
 /// As many values as rows, and both ends of each line.
-void check(const granular::LocalFrame& frame)
+void check(const granular::Table& frame)
 {
-  const auto rows = static_cast<std::size_t>(frame.table.rows);
-  for (const granular::DumpArray& array : frame.table.arrays)
+  const auto rows = static_cast<std::size_t>(frame.rows);
+  for (const granular::TableArray& array : frame.arrays)
   {
     const bool words = array.info.type == granular::ValueType::Text;
     const std::size_t size = words ? 4 : granular::size_of(array.info.type);
     ASSERT_EQ(array.block.bytes(), rows * array.info.columns.size() * size) << array.info.name;
   }
-  ASSERT_EQ(frame.lines.count, frame.has_lines ? frame.table.rows : 0);
+  ASSERT_EQ(frame.lines.count, frame.has_lines ? frame.rows : 0);
   ASSERT_EQ(frame.lines.points.bytes(), static_cast<std::size_t>(frame.lines.count) * 48);
 }
 
 /// All that is in a frame, with the columns as they are named.
 std::string content_of(LocalRun& run, std::size_t frame)
 {
-  granular::LocalRequest request;
-  request.columns = granular::name_columns(run.columns(frame));
-  const granular::LocalFrame local = run.read(frame, request);
+  const granular::Table local = run.read(frame, {}, granular::name_columns(run.columns(frame)));
   check(local);
-  std::string content = std::to_string(run.step(frame)) + " " + std::to_string(local.table.rows);
-  for (const granular::DumpArray& array : local.table.arrays)
+  std::string content = std::to_string(run.step(frame)) + " " + std::to_string(local.rows);
+  for (const granular::TableArray& array : local.arrays)
   {
     content += " " + array.info.name + " ";
     content.append(static_cast<const char*>(array.block.data()), array.block.bytes());
@@ -179,10 +177,8 @@ TEST(LocalDamage, CutAnywhere)
         else if (cut > 0) // of rows without a header nobody knows how many there will be
         {
           const std::string written = text.substr(0, bytes);
-          granular::LocalRequest request;
-          request.columns = { "id1", "id2", "btype" };
-          EXPECT_EQ(
-            once.read(0, request).table.rows, 1 + std::count(written.begin(), written.end(), '\n'));
+          EXPECT_EQ(once.read(0, {}, { "id1", "id2", "btype" }).rows,
+            1 + std::count(written.begin(), written.end(), '\n'));
         }
       }
       EXPECT_EQ(contents_of(grown), expected);

@@ -52,23 +52,14 @@ TEST(LocalFile, RealFrames)
   for (std::size_t frame = 0; frame < 5; ++frame)
   {
     EXPECT_EQ(run.step(frame), static_cast<std::int64_t>(frame) * 1000);
-    const granular::LocalFrame local = run.read(frame);
-    EXPECT_EQ(local.table.rows, rows[frame]);
+    const granular::Table local = run.read(frame);
+    EXPECT_EQ(local.rows, rows[frame]);
     EXPECT_EQ(local.lines.count, rows[frame]);
-    EXPECT_EQ(local.table.header.box.boundary, "pp pp ff");
-    EXPECT_EQ(local.table.header.counted, "ENTRIES");
+    EXPECT_EQ(local.header.box.boundary, "pp pp ff");
+    EXPECT_EQ(local.header.counted, "ENTRIES");
   }
   LocalRun label({ local_file("label.dump") });
-  EXPECT_EQ(label
-              .read(0,
-                []
-                {
-                  granular::LocalRequest request;
-                  request.columns = { "index", "id1", "id2" };
-                  return request;
-                }())
-              .table.header.counted,
-    "CONTACTS");
+  EXPECT_EQ(label.read(0, {}, { "index", "id1", "id2" }).header.counted, "CONTACTS");
 }
 
 TEST(LocalFile, WhatItIs)
@@ -93,7 +84,7 @@ TEST(LocalFile, PiecesWithoutHeaders)
     EXPECT_EQ(run.pieces(frame), 4u);
     EXPECT_EQ(run.step(frame), static_cast<std::int64_t>(frame) * 1500);
   }
-  const granular::LocalFrame last = run.read(2);
+  const granular::Table last = run.read(2);
   std::vector<std::int64_t> ids; // of all files, in the order of the processes
   for (const std::string& path : piece_files("3000"))
   {
@@ -118,7 +109,7 @@ TEST(LocalFile, PiecesBelongToTheFileWithZero)
   const std::vector<std::string> files = piece_files("3000");
   LocalRun turned({ files[2], files[1], files[0], files[3] });
   EXPECT_EQ(turned.size(), 1u);
-  EXPECT_EQ(turned.read(0).table.rows, LocalRun(files).read(0).table.rows);
+  EXPECT_EQ(turned.read(0).rows, LocalRun(files).read(0).rows);
   EXPECT_EQ(opening_error({ files[2] }),
     files[2] +
       ": expected a header, or rows of one timestep of which the file with 0 in its name has the "
@@ -162,7 +153,7 @@ TEST(LocalFile, FilesWithTheSameRowsAreNoPieces)
   LocalRun run(again);
   ASSERT_EQ(run.size(), 2u);
   EXPECT_EQ(run.pieces(1), 1u);
-  EXPECT_EQ(run.read(1).table.rows, 3);
+  EXPECT_EQ(run.read(1).rows, 3);
   const auto piece = [](int from)
   {
     const std::string a = std::to_string(from) + " " + std::to_string(from + 1) + " 1";
@@ -171,7 +162,7 @@ TEST(LocalFile, FilesWithTheSameRowsAreNoPieces)
   };
   LocalRun pieces({ write_text("piece_0.dump", piece(1)), write_text("piece_1.dump", piece(3)) });
   ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_EQ(pieces.read(0).table.rows, 2) << "LAMMPS has a header in each";
+  EXPECT_EQ(pieces.read(0).rows, 2) << "LAMMPS has a header in each";
 }
 
 TEST(LocalFile, PiecesWithOtherColumns)
@@ -184,7 +175,7 @@ TEST(LocalFile, PiecesWithOtherColumns)
       ": expected rows of 3 columns, as the file with 0 in its name has, got 2; they are left "
       "out, and so is what they belong to");
   LocalRun good({ head, write_text("other_5.1.dump", "\n3 4 1 \n") });
-  EXPECT_EQ(good.read(0).table.rows, 2);
+  EXPECT_EQ(good.read(0).rows, 2);
 }
 
 // A header that comes later, and rows that do.
@@ -195,22 +186,22 @@ TEST(LocalFile, PiecesThatGrow)
   const std::string head =
     write_text("grow_5.0.dump", local_frame("id1 id2 btype", { "1 2 1" }, "", "BONDS", 5));
   LocalRun run({ head, rows });
-  EXPECT_EQ(run.read(0).table.rows, 2);
+  EXPECT_EQ(run.read(0).rows, 2);
   EXPECT_EQ(run.step(0), 5);
   write_text("grow_5.1.dump", "3 4 1 \n5 6 1 \n7 8");
   run.update({ head, rows });
-  EXPECT_EQ(run.read(0).table.rows, 3) << "the last line is not complete";
+  EXPECT_EQ(run.read(0).rows, 3) << "the last line is not complete";
   write_text("grow_5.0.dump", local_frame("id1 id2 btype", { "1 2 1", "2 3 1" }, "", "BONDS", 5));
   run.update({ head, rows });
-  EXPECT_EQ(run.read(0).table.rows, 4);
-  const granular::LocalFrame frame = run.read(0);
+  EXPECT_EQ(run.read(0).rows, 4);
+  const granular::Table frame = run.read(0);
   const auto ids = values<std::int64_t>(frame, "id2");
   EXPECT_EQ(std::vector(ids.begin(), ids.end()), (std::vector<std::int64_t>{ 2, 3, 4, 6 }));
   write_text("grow_5.1.dump", "3 4 \n");
   EXPECT_NE(error_of([&] { run.update({ head, rows }); }), "") << "of other columns";
   write_text("grow_5.1.dump", "3 4 1 \n");
   run.update({ head, rows });
-  EXPECT_EQ(run.read(0).table.rows, 3);
+  EXPECT_EQ(run.read(0).rows, 3);
 }
 
 TEST(LocalFile, WithoutABox)
@@ -218,8 +209,8 @@ TEST(LocalFile, WithoutABox)
   const std::string path =
     write_text("boxless.dump", local_frame("x1 y1 z1 x2 y2 z2", { "0 0 0 9 0 0" }, ""));
   LocalRun run({ path });
-  const granular::LocalFrame frame = run.read(0);
-  EXPECT_FALSE(frame.table.header.has_box);
+  const granular::Table frame = run.read(0);
+  EXPECT_FALSE(frame.header.has_box);
   EXPECT_EQ(frame.lines.count, 1);
   EXPECT_EQ(frame.lines.moved, 0);
   EXPECT_EQ(static_cast<const double*>(frame.lines.lengths.data())[0], 9);
@@ -235,7 +226,7 @@ TEST(LocalFile, Labels)
         local_frame("id1 id2", { "5 6" }, "BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1", label, 1));
     LocalRun run({ path });
     EXPECT_EQ(run.size(), 2u) << label;
-    EXPECT_EQ(run.read(0).table.rows, 2) << label;
+    EXPECT_EQ(run.read(0).rows, 2) << label;
     EXPECT_EQ(run.said(), "") << label;
   }
 }

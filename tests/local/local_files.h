@@ -5,9 +5,9 @@
 
 #include "../support/error_of.h"
 
-#include "granular/local/local_columns.h"
-#include "granular/local/local_file.h"
-#include "granular/local/local_reader.h"
+#include "granular/formats/local/local_file.h"
+#include "granular/formats/local/local_reader.h"
+#include "granular/lines/line_columns.h"
 
 #include <gtest/gtest.h>
 
@@ -81,16 +81,18 @@ public:
     return granular::join_words(found_);
   }
 
-  granular::LocalFrame read(std::size_t frame, granular::LocalRequest request = {})
+  /// columns: what they are taken for; empty: what they are found to be.
+  granular::Table read(std::size_t frame, const granular::Request& request = {},
+    const std::vector<std::string>& columns = {})
   {
-    if (request.columns.empty())
+    if (columns.empty())
     {
       this->found(frame);
-      request.columns = found_;
     }
     granular::SerialCommunicator alone;
     granular::Progress progress;
-    return granular::read_local(index_.pieces(frame), request, alone, notices_, progress);
+    return granular::read_local(
+      index_.pieces(frame), columns.empty() ? found_ : columns, request, alone, notices_, progress);
   }
 
   /// The notices so far, one a line.
@@ -112,9 +114,9 @@ private:
 
 /// Values of an array of a frame, row-major.
 template <class Value>
-std::span<const Value> values(const granular::LocalFrame& frame, const std::string& name)
+std::span<const Value> values(const granular::Table& frame, const std::string& name)
 {
-  for (const granular::DumpArray& array : frame.table.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     if (array.info.name == name)
     {

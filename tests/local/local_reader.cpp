@@ -6,7 +6,7 @@
 #include "../support/thread_ranks.h"
 
 #include "granular/bytes/compression.h"
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +18,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace
@@ -55,18 +56,18 @@ std::vector<Row> plain_rows(const std::string& path, std::int64_t step)
 TEST(LocalReader, EveryValueOfARealFile)
 {
   LocalRun run({ local_file("contacts.dump") });
-  granular::LocalRequest request;
-  request.wanted = [](std::string_view) { return true; };
+  granular::Request request;
+  request.wanted = [](std::string_view, bool) { return true; };
   run.found();
   for (std::size_t frame = 1; frame < 5; ++frame)
   {
     const std::vector<Row> rows = plain_rows(local_file("contacts.dump"), run.step(frame));
-    request.columns = granular::name_columns(run.columns(), granular::local_presets()[6]);
-    const granular::LocalFrame local = run.read(frame, request);
+    const granular::Table local =
+      run.read(frame, request, granular::name_columns(run.columns(), granular::local_presets()[6]));
     const auto first = values<double>(local, "position1");
     const auto second = values<double>(local, "position2");
     const auto force = values<double>(local, "force");
-    ASSERT_EQ(static_cast<std::size_t>(local.table.rows), rows.size());
+    ASSERT_EQ(static_cast<std::size_t>(local.rows), rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -92,8 +93,8 @@ TEST(LocalReader, ContactsOverlap)
     radii[static_cast<std::int64_t>(row[0])] = row[17];
   }
   LocalRun run({ local_file("contacts.dump") });
-  const granular::LocalFrame local = run.read(2);
-  ASSERT_EQ(local.table.rows, 35);
+  const granular::Table local = run.read(2);
+  ASSERT_EQ(local.rows, 35);
   const auto* lengths = static_cast<const double*>(local.lines.lengths.data());
   for (std::size_t i = 0; i < 35; ++i)
   {
@@ -111,23 +112,22 @@ TEST(LocalReader, ForcesAddUp)
 {
   constexpr double gravity = 9.81;
   LocalRun run({ local_file("settled_contacts.dump.gz") });
-  const granular::LocalFrame contacts = run.read(0);
-  ASSERT_EQ(contacts.table.rows, 698);
+  const granular::Table contacts = run.read(0);
+  ASSERT_EQ(contacts.rows, 698);
   granular::RunIndex index;
   granular::Notices notices;
   granular::Progress progress;
   index.update({ local_file("settled_grains.dump.gz") }, { .format = &granular::dump_format() },
     notices, progress);
-  granular::LocalFrame particles;
-  particles.table = granular::read_dump(index.pieces(0), {}, notices, progress);
-  ASSERT_EQ(particles.table.rows, 300);
+  const granular::Table particles = granular::read_dump(index.pieces(0), {}, notices, progress);
+  ASSERT_EQ(particles.rows, 300);
   const auto ids = values<std::int64_t>(particles, "id");
   std::map<std::int64_t, std::size_t> row_of;
   for (std::size_t row = 0; row < ids.size(); ++row)
   {
     row_of[ids[row]] = row;
   }
-  const auto* const centres = static_cast<const double*>(particles.table.points.data());
+  const auto* const centres = static_cast<const double*>(particles.points.data());
   const auto radius = values<double>(particles, "radius");
   const auto mass = values<double>(particles, "mass");
   const auto total = values<double>(particles, "f");
@@ -170,11 +170,11 @@ TEST(LocalReader, ArraysThatAreAskedFor)
 {
   LocalRun run({ local_file("contacts.dump") });
   run.found();
-  granular::LocalRequest request;
-  request.wanted = [](std::string_view name) { return name == "force"; };
-  const granular::LocalFrame local = run.read(3, request);
-  ASSERT_EQ(local.table.arrays.size(), 1u);
-  EXPECT_EQ(local.table.arrays[0].info.name, "force");
+  granular::Request request;
+  request.wanted = [](std::string_view name, bool) { return name == "force"; };
+  const granular::Table local = run.read(3, request);
+  ASSERT_EQ(local.arrays.size(), 1u);
+  EXPECT_EQ(local.arrays[0].info.name, "force");
   EXPECT_EQ(local.lines.count, 108);
 }
 
@@ -193,11 +193,11 @@ TEST(LocalReader, PartsAreTheWhole)
     { granular::PeriodicLines::MinimumImage, granular::PeriodicLines::Split })
   {
     LocalRun run({ path });
-    granular::LocalRequest request;
-    request.lines.periodic = periodic;
-    request.columns = granular::name_columns(run.columns());
-    const granular::LocalFrame whole = run.read(0, request);
-    const auto points_of = [](const granular::LocalFrame& frame)
+    granular::Request request;
+    request.periodic_lines = periodic;
+    const std::vector<std::string> names = granular::name_columns(run.columns());
+    const granular::Table whole = run.read(0, request, names);
+    const auto points_of = [](const granular::Table& frame)
     {
       const auto* points = static_cast<const double*>(frame.lines.points.data());
       return std::vector<double>(points, points + 6 * frame.lines.count);
@@ -211,17 +211,17 @@ TEST(LocalReader, PartsAreTheWhole)
         [&](granular::Communicator& communicator)
         {
           const auto rank = static_cast<std::size_t>(communicator.rank());
-          granular::LocalRequest own = request;
+          granular::Request own = request;
           own.piece = communicator.rank();
           own.pieces = ranks;
-          own.lines.threads = 2;
+          own.threads = 2;
           granular::Notices notices;
           granular::Progress progress;
-          const granular::LocalFrame part =
-            granular::read_local(run.index().pieces(0), own, communicator, notices, progress);
+          const granular::Table part = granular::read_local(
+            run.index().pieces(0), names, own, communicator, notices, progress);
           points[rank] = points_of(part);
           first[rank] = part.first_row;
-          counts[rank] = part.table.rows;
+          counts[rank] = part.rows;
         });
       std::vector<double> joined;
       std::int64_t before = 0;
@@ -241,14 +241,14 @@ TEST(LocalReader, FirstRowsOfPieces)
 {
   LocalRun run({ local_file("contacts.dump") });
   run.found();
-  granular::LocalRequest request;
-  request.lines.periodic = granular::PeriodicLines::Split;
+  granular::Request request;
+  request.periodic_lines = granular::PeriodicLines::Split;
   std::int64_t before = 0;
   for (request.piece = 0, request.pieces = 3; request.piece < 3; ++request.piece)
   {
-    const granular::LocalFrame part = run.read(4, request);
+    const granular::Table part = run.read(4, request);
     EXPECT_EQ(part.first_row, before);
-    before += part.table.rows;
+    before += part.rows;
   }
   EXPECT_EQ(before, 261);
 }
@@ -293,9 +293,9 @@ TEST(LocalReader, TextsOfAPiece)
       continue;
     }
     EXPECT_EQ(granular::read_sample(run.index(), kind, progress).rows, 0u);
-    const granular::LocalFrame frame = run.read(0);
-    ASSERT_EQ(frame.table.rows, 4);
-    const granular::DumpArray& texts = frame.table.arrays.back();
+    const granular::Table frame = run.read(0);
+    ASSERT_EQ(frame.rows, 4);
+    const granular::TableArray& texts = frame.arrays.back();
     std::string words;
     for (const std::int32_t word : values<std::int32_t>(frame, "c"))
     {
@@ -311,9 +311,9 @@ TEST(LocalReader, ColumnsNamedAsEnds)
   for (const char* columns : { "id1 id2 position1 position2", "position1 position2 id1 id2" })
   {
     LocalRun run({ write_text("a.dump", local_frame(columns, { "1 2 3 4", "2 3 4 5" })) });
-    const granular::LocalFrame frame = run.read(0);
+    const granular::Table frame = run.read(0);
     EXPECT_FALSE(frame.has_lines);
-    EXPECT_EQ(frame.table.rows, 2);
+    EXPECT_EQ(frame.rows, 2);
   }
 }
 
@@ -325,11 +325,9 @@ TEST(LocalReader, AsManyColumnsAsThereMayBe)
     const std::string columns = line_of_many("", form);
     const std::string row = line_of_many("", "#");
     LocalRun run({ write_text("a.dump", local_frame(columns, { row, row })) });
-    granular::LocalRequest request;
-    request.columns = run.columns();
-    const granular::LocalFrame frame = run.read(0, request);
-    EXPECT_EQ(frame.table.rows, 2);
-    EXPECT_EQ(frame.table.arrays.size(), form == "c_a[#]" ? 1u : many) << form;
+    const granular::Table frame = run.read(0, {}, run.columns());
+    EXPECT_EQ(frame.rows, 2);
+    EXPECT_EQ(frame.arrays.size(), form == "c_a[#]" ? 1u : many) << form;
     granular::Progress progress;
     const granular::FrameKind& kind = *run.index().first_piece(0).entry.kind;
     EXPECT_EQ(granular::read_sample(run.index(), kind, progress).values.size(), 2u * many);
@@ -358,13 +356,13 @@ TEST(LocalReader, ThreadsChangeNothing)
   }
   const std::string path = write_text("large.dump", text);
   LocalRun run({ path });
-  granular::LocalRequest request;
-  request.columns = granular::name_columns(run.columns());
-  request.lines.periodic = granular::PeriodicLines::Split;
-  const granular::LocalFrame one = run.read(0, request);
-  request.lines.threads = 2;
-  const granular::LocalFrame two = run.read(0, request);
-  ASSERT_EQ(one.table.rows, count);
+  granular::Request request;
+  const std::vector<std::string> names = granular::name_columns(run.columns());
+  request.periodic_lines = granular::PeriodicLines::Split;
+  const granular::Table one = run.read(0, request, names);
+  request.threads = 2;
+  const granular::Table two = run.read(0, request, names);
+  ASSERT_EQ(one.rows, count);
   EXPECT_GT(one.lines.count, count);
   EXPECT_EQ(values<std::int64_t>(one, "id1")[count - 1], 1000);
   EXPECT_EQ(two.lines.rows, one.lines.rows);
@@ -372,10 +370,10 @@ TEST(LocalReader, ThreadsChangeNothing)
   { return a.bytes() == b.bytes() && std::memcmp(a.data(), b.data(), a.bytes()) == 0; };
   EXPECT_TRUE(same(one.lines.points, two.lines.points));
   EXPECT_TRUE(same(one.lines.lengths, two.lines.lengths));
-  ASSERT_EQ(one.table.arrays.size(), 3u);
+  ASSERT_EQ(one.arrays.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    EXPECT_TRUE(same(one.table.arrays[i].block, two.table.arrays[i].block));
+    EXPECT_TRUE(same(one.arrays[i].block, two.arrays[i].block));
   }
 }
 
@@ -408,7 +406,7 @@ TEST(LocalReader, IdsOfAllSizes)
   }
   const std::string path = write_text("ids.dump", local_frame("id1 id2", rows));
   LocalRun run({ path });
-  const granular::LocalFrame frame = run.read(0);
+  const granular::Table frame = run.read(0);
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
     EXPECT_EQ(std::to_string(values<std::int64_t>(frame, "id1")[i]), ids[i]);
@@ -440,9 +438,9 @@ TEST(LocalReader, CompressedFilesAreTheSame)
     const std::string packed = granular::compress(text, compression);
     LocalRun run({ write_text("packed.dump", packed) });
     ASSERT_EQ(run.size(), 5u);
-    const granular::LocalFrame frame = run.read(4);
+    const granular::Table frame = run.read(4);
     LocalRun plain({ local_file("contacts.dump") });
-    const granular::LocalFrame expected = plain.read(4);
+    const granular::Table expected = plain.read(4);
     const auto got = values<double>(frame, "force");
     const auto wanted = values<double>(expected, "force");
     EXPECT_TRUE(std::equal(got.begin(), got.end(), wanted.begin(), wanted.end()));

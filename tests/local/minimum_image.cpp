@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shortest image of a vector, held against all images near it, in 113 bits and in integers.
-#include "granular/local/minimum_image.h"
+#include "granular/lines/minimum_image.h"
 
 #include "../support/hard_case.h"
 #include "../support/quad.h"

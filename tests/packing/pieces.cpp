@@ -117,7 +117,7 @@ TEST(PackingPieces, RangesAreThoseOfTheValues)
   granular::ValueRange points(3);
   points.add(particles.points.data()->data(), particles.size());
   EXPECT_EQ(particles.frame.points_range.components(), points.components());
-  for (const granular::DumpArray& array : particles.frame.arrays)
+  for (const granular::TableArray& array : particles.frame.arrays)
   {
     ASSERT_TRUE(array.range.known()) << array.info.name;
     if (array.info.name == "radius")

@@ -3,7 +3,7 @@
 #include "../support/hard_case.h"
 #include "path_checks.h"
 
-#include "granular/local/lines.h"
+#include "granular/lines/lines.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/paths/path_frame.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace granular;
@@ -36,7 +37,7 @@ std::vector<std::string> rows_of(const Decoded& decoded)
       rows[i / (values.size() / rows.size())] += text.str();
     }
   };
-  for (const DumpArray& array : decoded.frame.arrays)
+  for (const TableArray& array : decoded.frame.arrays)
   {
     if (array.info.type == ValueType::Text)
     {
@@ -57,7 +58,7 @@ std::vector<std::string> rows_of(const Decoded& decoded)
 /// Reads with keep_id, in many ways, what a whole reading has of those rows.
 void check(const Dump& dump, const Keep& keep, std::size_t frame = 0)
 {
-  DumpRequest request;
+  Request request;
   const Decoded whole = dump.read(request, frame);
   const std::vector<std::string> all = rows_of(whole);
   const std::vector<std::int64_t> ids = whole.integers("id");
@@ -103,7 +104,7 @@ void check(const Dump& dump, const Keep& keep, std::size_t frame = 0)
   request.stride = 3;
   EXPECT_EQ(rows_of(dump.read(request, frame)), fewer);
   // the ids themselves need not be wanted
-  request.wanted = [](const ArrayInfo& array) { return array.name == "type"; };
+  request.wanted = [](std::string_view name, bool) { return name == "type"; };
   const Decoded without = dump.read(request, frame);
   EXPECT_FALSE(without.has("id"));
   EXPECT_EQ(without.rows(), std::ssize(fewer));
@@ -175,7 +176,7 @@ TEST(KeepId, IdsThatAreNone)
   binary::Frame frame = binary::particles(form, 5, 9);
   frame.chunks[0][12] = 7.5;
   const Dump dump(binary::write(form, { frame }).bytes, binary::names_for(form));
-  DumpRequest request;
+  Request request;
   request.keep_id = [](std::int64_t) { return true; };
   const Decoded decoded = dump.read(request);
   EXPECT_EQ(decoded.type("id"), ValueType::Float64);
@@ -186,7 +187,7 @@ TEST(KeepId, IdsThatAreNone)
 TEST(KeepId, WithoutIdsNoneIsKept)
 {
   const Dump dump(one_frame("type x y z", "1 0.5 0.5 0.5\n2 0.25 0.5 0.5\n"));
-  DumpRequest request;
+  Request request;
   request.keep_id = [](std::int64_t) { return true; };
   EXPECT_EQ(dump.read(request).rows(), 0);
 }
@@ -204,7 +205,7 @@ TEST(KeepId, WordsOfOthersNeedNotBeNumbers)
     std::string text = one_frame("id type x y z", rows);
     return text.replace(text.find("\n51 "), 1, "\n \t\n\n");
   };
-  DumpRequest request;
+  Request request;
   request.keep_id = [](std::int64_t id) { return id % 3 == 0; };
   const std::vector<std::string> expected =
     rows_of(Dump(rows_with(" 4 0.5 0.25 0.125")).read(request));
@@ -221,7 +222,7 @@ TEST(KeepId, WordsOfOthersNeedNotBeNumbers)
       EXPECT_EQ(found.type("type"), ValueType::Int32) << other;
       EXPECT_EQ(found.said(), "") << other;
     }
-    DumpRequest others = request;
+    Request others = request;
     others.keep_id = [](std::int64_t id) { return id % 3 == 1; };
     const std::string error = error_of([&] { dump.read(others); });
     EXPECT_EQ(
@@ -237,7 +238,7 @@ TEST(KeepId, WordsOfOthersNeedNotBeNumbers)
 TEST(KeepId, WordsOfRowsBetweenNeedNotBeNumbers)
 {
   const Dump dump(one_frame("id x y z", "1 a 0 0\n2 0.5 0 0\n4 0.25 0 0\n3 b 0 0\n"));
-  DumpRequest request;
+  Request request;
   request.stride = 2;
   EXPECT_EQ(dump.read(request).integers("id"), (std::vector<std::int64_t>{ 2, 4 }));
 }
@@ -247,7 +248,7 @@ TEST(KeepId, WordsOfRowsBetweenNeedNotBeNumbers)
 namespace
 {
 PathFrame particles_of(const std::string& file, const PathRequest& request,
-  const DumpRequest& base = {}, PathFrame spent = {})
+  const Request& base = {}, PathFrame spent = {})
 {
   RunIndex index;
   IndexOptions options;
@@ -274,7 +275,7 @@ TEST(ReadParticles, OnlyWhatIsWanted)
       const PathRequest request{ IdSelection(text), { "type", "image", "mass" } };
       PathFrame expected;
       PathFrame found;
-      DumpRequest base;
+      Request base;
       base.pieces = pieces;
       base.threads = pieces;
       for (base.piece = 0; base.piece < pieces; ++base.piece)
@@ -317,7 +318,7 @@ TEST(ReadParticles, OnlyWhatIsWanted)
 TEST(ReadParticles, RowsOfTheFile)
 {
   const std::string file = std::string(GRANULAR_DATA) + "/good/ortho_image.dump";
-  DumpRequest base;
+  Request base;
   PathFrame frame = particles_of(file, {}, base);
   ASSERT_TRUE(frame.has_rows);
   EXPECT_EQ(frame.rows.back(), 499);
@@ -336,14 +337,14 @@ TEST(ReadParticles, MemoryOfSpentFrames)
   const std::string file = std::string(GRANULAR_DATA) + "/good/ortho_image.dump";
   const std::vector<PathRequest> requests = { { {}, { "type", "image" } },
     { IdSelection("7-90:3"), { "image" } }, { {}, { "mass", "type" }, false }, { {}, {} } };
-  DumpRequest unwrapped;
+  Request unwrapped;
   unwrapped.coordinates = Coordinates::Unwrapped;
   PathFrame spent;
   for (int round = 0; round < 2; ++round)
   {
     for (const PathRequest& request : requests)
     {
-      for (const DumpRequest& base : { DumpRequest(), unwrapped })
+      for (const Request& base : { Request(), unwrapped })
       {
         const PathFrame fresh = particles_of(file, request, base);
         spent = particles_of(file, request, base, std::move(spent));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/restart/bond_record.h"
+#include "granular/formats/restart/bond_record.h"
 
 #include "../support/error_of.h"
 

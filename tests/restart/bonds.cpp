@@ -2,7 +2,7 @@
 // Bonds out of restart files: each once, whoever holds it.
 #include "restart_runs.h"
 
-#include "granular/local/local_columns.h"
+#include "granular/lines/line_columns.h"
 
 #include <gtest/gtest.h>
 
@@ -19,16 +19,16 @@
 
 namespace
 {
-using granular::RestartRequest;
+using granular::Request;
 using restart_builder::RestartBuilder;
 
 using Bond = std::tuple<std::int64_t, std::int64_t, std::int32_t>; ///< id1 id2 btype
 
-std::vector<Bond> bonds_of(const granular::RestartFrame& frame)
+std::vector<Bond> bonds_of(const granular::Tables& frame)
 {
-  const auto first = values_of<std::int64_t>(frame.bonds.table, "id1");
-  const auto second = values_of<std::int64_t>(frame.bonds.table, "id2");
-  const auto types = values_of<std::int32_t>(frame.bonds.table, "btype");
+  const auto first = values_of<std::int64_t>(frame.bonds, "id1");
+  const auto second = values_of<std::int64_t>(frame.bonds, "id2");
+  const auto types = values_of<std::int32_t>(frame.bonds, "btype");
   std::vector<Bond> bonds;
   for (std::size_t i = 0; i < first.size(); ++i)
   {
@@ -64,13 +64,13 @@ TEST(RestartBonds, OnceWhereBothHoldThem)
   const RestartRun run = read_run(builder);
   EXPECT_EQ(bonds_of(run.frame), (std::vector<Bond>{ { 2, 3, 1 }, { 1, 2, 2 } }));
   EXPECT_EQ(run.said(), "");
-  EXPECT_EQ(values_of<double>(run.frame.bonds.table, "force_normal"),
+  EXPECT_EQ(values_of<double>(run.frame.bonds, "force_normal"),
     (std::vector<double>{ 20, 21, 22, 10, 11, 12 }));
-  EXPECT_EQ(values_of<double>(run.frame.bonds.table, "torque_tangential"),
+  EXPECT_EQ(values_of<double>(run.frame.bonds, "torque_tangential"),
     (std::vector<double>{ 29, 30, 31, 19, 20, 21 }));
   EXPECT_EQ(line_points_of(run.frame.bonds),
     (std::vector<double>{ 0.2, 0.5, 0.5, 0.3, 0.5, 0.5, 0.1, 0.5, 0.5, 0.2, 0.5, 0.5 }));
-  EXPECT_EQ(run.frame.bonds.table.header.rows, 2);
+  EXPECT_EQ(run.frame.bonds.header.rows, 2);
   EXPECT_TRUE(run.frame.bonds.has_lines);
 }
 
@@ -184,17 +184,14 @@ TEST(RestartBonds, HistoryWithoutSign)
 {
   const auto builder = bonded_file(
     { { 1, { { 1, 2, history(-20, 1, 14) } } }, { 2, { { 1, 1, history(20, 1, 14) } } } }, 14);
-  RestartRequest request;
-  const RestartRun run = read_run(builder, request);
+  const RestartRun run = read_run(builder);
+  EXPECT_EQ(values_of<double>(run.frame.bonds, "equilibrium_length"), std::vector<double>{ 8 });
+  EXPECT_EQ(values_of<double>(run.frame.bonds, "damage"), std::vector<double>{ 7 });
   EXPECT_EQ(
-    values_of<double>(run.frame.bonds.table, "equilibrium_length"), std::vector<double>{ 8 });
-  EXPECT_EQ(values_of<double>(run.frame.bonds.table, "damage"), std::vector<double>{ 7 });
-  EXPECT_EQ(values_of<double>(run.frame.bonds.table, "force_normal"),
-    (std::vector<double>{ -20, -19, -18 }));
-  request.history_layout = 1; // has 13
-  const RestartRun unnamed = read_run(builder, request);
-  EXPECT_EQ(values_of<double>(unnamed.frame.bonds.table, "history13"), std::vector<double>{ -8 });
-  EXPECT_EQ(array_of(unnamed.frame.bonds.table, "damage"), nullptr);
+    values_of<double>(run.frame.bonds, "force_normal"), (std::vector<double>{ -20, -19, -18 }));
+  const RestartRun unnamed = read_run(builder, {}, 1); // has 13
+  EXPECT_EQ(values_of<double>(unnamed.frame.bonds, "history13"), std::vector<double>{ -8 });
+  EXPECT_EQ(array_of(unnamed.frame.bonds, "damage"), nullptr);
   EXPECT_NE(unnamed.said().find("expected 13 history values of a bond, as PFM has them, got 14"),
     std::string::npos);
 }
@@ -246,7 +243,7 @@ TEST(RestartBonds, AnyIds)
     const RestartRun run = read_run(builder);
     EXPECT_EQ(bonds_of(run.frame), (std::vector<Bond>{ { low, high, 1 } })) << low << " " << high;
     EXPECT_EQ(
-      values_of<std::int64_t>(run.frame.particles, "id"), (std::vector<std::int64_t>{ high, low }));
+      values_of<std::int64_t>(run.frame.rows, "id"), (std::vector<std::int64_t>{ high, low }));
   }
 }
 
@@ -271,12 +268,12 @@ TEST(RestartBonds, AcrossAFace)
 TEST(RestartBonds, NoneAndNobody)
 {
   const RestartRun none = read_run(bonded_file({ { 1 }, { 2 } }, 12));
-  EXPECT_EQ(none.frame.bonds.table.rows, 0);
-  EXPECT_NE(array_of(none.frame.bonds.table, "force_normal"), nullptr);
+  EXPECT_EQ(none.frame.bonds.rows, 0);
+  EXPECT_NE(array_of(none.frame.bonds, "force_normal"), nullptr);
   const RestartRun nobody = read_run(bonded_file({}));
-  EXPECT_EQ(nobody.frame.particles.rows, 0);
-  EXPECT_NE(array_of(nobody.frame.particles, "radius"), nullptr);
-  EXPECT_NE(array_of(nobody.frame.bonds.table, "id1"), nullptr);
+  EXPECT_EQ(nobody.frame.rows.rows, 0);
+  EXPECT_NE(array_of(nobody.frame.rows, "radius"), nullptr);
+  EXPECT_NE(array_of(nobody.frame.bonds, "id1"), nullptr);
   EXPECT_EQ(nobody.frame.bonds.lines.count, 0);
 }
 
@@ -303,12 +300,11 @@ TEST(RestartBonds, WithoutAnotherStyle)
   {
     const RestartRun run = read_run(builder);
     EXPECT_EQ(bonds_of(run.frame), (std::vector<Bond>{ { 1, 2, 4 } }));
+    EXPECT_EQ(values_of<double>(run.frame.bonds, "force_normal"), (std::vector<double>{ 1, 2, 3 }));
     EXPECT_EQ(
-      values_of<double>(run.frame.bonds.table, "force_normal"), (std::vector<double>{ 1, 2, 3 }));
-    EXPECT_EQ(
-      values_of<std::int64_t>(run.frame.particles, "id"), (std::vector<std::int64_t>{ 1, 2, 3 }));
+      values_of<std::int64_t>(run.frame.rows, "id"), (std::vector<std::int64_t>{ 1, 2, 3 }));
   }
-  EXPECT_EQ(values_of<double>(read_run(first).frame.particles, "radius"),
+  EXPECT_EQ(values_of<double>(read_run(first).frame.rows, "radius"),
     (std::vector<double>{ 0.1, 0.1, 0.1 }));
 }
 
@@ -337,9 +333,8 @@ TEST(RestartBonds, LongerThanTheTable)
       std::string::npos)
       << run.said();
     EXPECT_FALSE(run.frame.bonds.has_lines);
-    EXPECT_EQ(array_of(run.frame.particles, "mol"), nullptr);
-    EXPECT_EQ(
-      values_of<std::int64_t>(run.frame.particles, "id"), (std::vector<std::int64_t>{ 1, 2 }));
+    EXPECT_EQ(array_of(run.frame.rows, "mol"), nullptr);
+    EXPECT_EQ(values_of<std::int64_t>(run.frame.rows, "id"), (std::vector<std::int64_t>{ 1, 2 }));
   }
 }
 
@@ -406,7 +401,7 @@ TEST(RestartBonds, AnyThreadsAndPieces)
   const std::string bytes = builder.file();
   const auto source = granular::open_memory(bytes);
   const RestartRun whole = read_run(*source);
-  ASSERT_GT(whole.frame.bonds.table.rows, count / 2);
+  ASSERT_GT(whole.frame.bonds.rows, count / 2);
   for (const int threads : { 1, 3 })
   {
     for (int pieces = 1; pieces <= 5; ++pieces)
@@ -417,18 +412,18 @@ TEST(RestartBonds, AnyThreadsAndPieces)
       std::int64_t rows = 0;
       for (int piece = 0; piece < pieces; ++piece)
       {
-        RestartRequest request;
-        request.lines.threads = threads;
+        Request request;
+        request.threads = threads;
         request.piece = piece;
         request.pieces = pieces;
         const RestartRun part = read_run(*source, request);
         EXPECT_EQ(part.frame.bonds.first_row, static_cast<std::int64_t>(bonds.size()));
-        EXPECT_EQ(part.frame.bonds.table.header.rows, whole.frame.bonds.table.rows);
+        EXPECT_EQ(part.frame.bonds.header.rows, whole.frame.bonds.rows);
         EXPECT_EQ(part.said(), whole.said());
-        rows += part.frame.particles.rows;
+        rows += part.frame.rows.rows;
         const auto more = bonds_of(part.frame);
         bonds.insert(bonds.end(), more.begin(), more.end());
-        const auto more_points = points_of(part.frame.particles);
+        const auto more_points = points_of(part.frame.rows);
         points.insert(points.end(), more_points.begin(), more_points.end());
         const auto more_lines = line_points_of(part.frame.bonds);
         lines.insert(lines.end(), more_lines.begin(), more_lines.end());
@@ -439,7 +434,7 @@ TEST(RestartBonds, AnyThreadsAndPieces)
       }
       EXPECT_EQ(rows, count);
       EXPECT_EQ(bonds, bonds_of(whole.frame));
-      EXPECT_EQ(points, points_of(whole.frame.particles));
+      EXPECT_EQ(points, points_of(whole.frame.rows));
       EXPECT_EQ(lines, line_points_of(whole.frame.bonds));
     }
   }
@@ -457,7 +452,7 @@ TEST(RestartBonds, AMillionOfOneParticle)
   }
   particles[1].bonds.assign(many / 2, { 1, many + 1 });
   const RestartRun run = read_run(bonded_file(particles));
-  EXPECT_EQ(run.frame.bonds.table.rows, many);
+  EXPECT_EQ(run.frame.bonds.rows, many);
   EXPECT_NE(run.said().find("bonds of a particle with itself: 500000"), std::string::npos);
 
   std::vector<BondedParticle> star = { { 0 } };
@@ -466,5 +461,5 @@ TEST(RestartBonds, AMillionOfOneParticle)
     star[0].bonds.push_back({ 1, id });
     star.push_back({ id, { { 1, 0 } } });
   }
-  EXPECT_EQ(read_run(bonded_file(star)).frame.bonds.table.rows, many / 10);
+  EXPECT_EQ(read_run(bonded_file(star)).frame.bonds.rows, many / 10);
 }

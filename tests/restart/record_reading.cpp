@@ -5,7 +5,7 @@
 #include "../support/counting_source.h"
 
 #include "granular/bytes/byte_source.h"
-#include "granular/restart/restart_reader.h"
+#include "granular/formats/restart/restart_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ struct Read
 };
 
 /// What is read of a file for its columns, or for a piece of it.
-Read read_of(const std::string& bytes, const granular::RestartRequest* request)
+Read read_of(const std::string& bytes, const granular::Request* request)
 {
   granular::Notices notices;
   granular::Progress progress;
@@ -74,7 +74,9 @@ Read read_of(const std::string& bytes, const granular::RestartRequest* request)
   std::int64_t rows = 0;
   if (request)
   {
-    rows = granular::read_restart(source, layout, *request, notices, progress).particles.rows;
+    rows = granular::read_restart(
+      source, layout, granular::automatic_history, *request, notices, progress)
+             .rows.rows;
   }
   else
   {
@@ -101,8 +103,8 @@ TEST(RestartReading, AllOnce)
     const std::string bytes = builder.file();
     for (const int threads : { 1, 3 })
     {
-      granular::RestartRequest request;
-      request.lines.threads = threads;
+      granular::Request request;
+      request.threads = threads;
       const Read read = read_of(bytes, &request);
       EXPECT_EQ(read.rows, builder.records());
       EXPECT_LT(read.bytes, read.size + read.size / 10 + 2 * mib) << threads;
@@ -116,8 +118,8 @@ TEST(RestartReading, TheFirstPiece)
   const std::string bytes = many_particles().file();
   for (const int threads : { 1, 3 })
   {
-    granular::RestartRequest request;
-    request.lines.threads = threads;
+    granular::Request request;
+    request.threads = threads;
     request.pieces = 100;
     const Read read = read_of(bytes, &request);
     EXPECT_EQ(read.rows, 1300);

@@ -3,8 +3,8 @@
 #include "restart_runs.h"
 #include "shared_file.h"
 
-#include "granular/dump/read/dump_reader.h"
-#include "granular/restart/record_plan.h"
+#include "granular/formats/dump/read/dump_reader.h"
+#include "granular/formats/restart/record_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -18,20 +18,21 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace
 {
-using granular::DumpArray;
-using granular::DumpFrame;
-using granular::RestartRequest;
+using granular::Request;
+using granular::Table;
+using granular::TableArray;
 using granular::ValueType;
 using restart_builder::Particle;
 using restart_builder::Record;
 using restart_builder::RestartBuilder;
 
-RestartRun read_file(const std::string& path, const RestartRequest& request = {})
+RestartRun read_file(const std::string& path, const Request& request = {})
 {
   return read_run(*granular::open_file(path), request);
 }
@@ -79,7 +80,7 @@ DumpRows dump_rows(const std::string& path, const std::string& timestep)
   return rows;
 }
 
-double value_at(const DumpArray& array, std::size_t row, std::size_t component)
+double value_at(const TableArray& array, std::size_t row, std::size_t component)
 {
   const std::size_t i = row * array.info.columns.size() + component;
   const void* const data = array.block.data();
@@ -95,7 +96,7 @@ double value_at(const DumpArray& array, std::size_t row, std::size_t component)
 }
 
 /// Expects the values of all columns that both have, as the dump prints them with so many digits. Returns how many columns.
-std::size_t expect_rows(const DumpFrame& frame, const DumpRows& rows, int digits)
+std::size_t expect_rows(const Table& frame, const DumpRows& rows, int digits)
 {
   EXPECT_EQ(static_cast<std::size_t>(frame.rows), rows.size());
   const auto ids = values_of<std::int64_t>(frame, "id");
@@ -109,7 +110,7 @@ std::size_t expect_rows(const DumpFrame& frame, const DumpRows& rows, int digits
     EXPECT_LE(std::abs(value - printed), allowed) << name << " of " << id;
   };
   std::size_t columns = 0;
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     for (std::size_t component = 0; component < array.info.columns.size(); ++component)
     {
@@ -167,15 +168,15 @@ TEST(RestartRecords, ParticlesAsTheirDump)
   const RestartRun run = read_file(restart);
   const DumpRows rows = dump_rows(shared_file("liggghts/grains.dump"), "4000");
   ASSERT_EQ(rows.size(), 1200u);
-  EXPECT_EQ(run.frame.particles.header.timestep, 4000);
-  EXPECT_EQ(run.frame.particles.header.rows, 1200);
+  EXPECT_EQ(run.frame.rows.header.timestep, 4000);
+  EXPECT_EQ(run.frame.rows.header.rows, 1200);
   EXPECT_EQ(run.said(), "");
   // id type ix iy iz vx vy vz radius omega..., all but positions
-  EXPECT_GE(expect_rows(run.frame.particles, rows, 6), 9u);
+  EXPECT_GE(expect_rows(run.frame.rows, rows, 6), 9u);
   EXPECT_FALSE(run.frame.bonds.has_lines);
-  const auto mass = values_of<double>(run.frame.particles, "mass");
-  const auto radius = values_of<double>(run.frame.particles, "radius");
-  const auto density = values_of<double>(run.frame.particles, "density");
+  const auto mass = values_of<double>(run.frame.rows, "mass");
+  const auto radius = values_of<double>(run.frame.rows, "radius");
+  const auto density = values_of<double>(run.frame.rows, "density");
   ASSERT_EQ(mass.size(), 1200u);
   for (std::size_t i = 0; i < mass.size(); ++i)
   {
@@ -194,9 +195,9 @@ TEST(RestartRecords, BeamOfBonds)
     GTEST_SKIP() << "the file is not there";
   }
   const RestartRun run = read_file(path);
-  EXPECT_EQ(run.frame.particles.rows, 11);
+  EXPECT_EQ(run.frame.rows.rows, 11);
   EXPECT_EQ(run.said(), "");
-  const DumpFrame& table = run.frame.bonds.table;
+  const Table& table = run.frame.bonds;
   ASSERT_EQ(table.rows, 10);
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{ std::istreambuf_iterator<char>(file), {} };
@@ -252,11 +253,10 @@ TEST(RestartRecords, StylesAsTheirDumps)
     const DumpRows rows = dump_rows(style_file(name + ".dump"), "0");
     ASSERT_FALSE(rows.empty()) << name;
     const std::size_t forms = 3; // x y z, which points are
-    EXPECT_EQ(expect_rows(run.frame.particles, rows, 17), rows.begin()->second.size() - forms)
-      << name;
+    EXPECT_EQ(expect_rows(run.frame.rows, rows, 17), rows.begin()->second.size() - forms) << name;
     EXPECT_EQ(run.said(), "") << name;
-    const auto masks = values_of<std::int32_t>(run.frame.particles, "mask");
-    const auto ids = values_of<std::int64_t>(run.frame.particles, "id");
+    const auto masks = values_of<std::int32_t>(run.frame.rows, "mask");
+    const auto ids = values_of<std::int64_t>(run.frame.rows, "id");
     for (std::size_t i = 0; i < ids.size() && name != "molecular"; ++i)
     {
       EXPECT_EQ(masks[i], ids[i] == 1 || ids[i] == 3 ? 3 : 1) << name;
@@ -268,13 +268,13 @@ TEST(RestartRecords, StylesAsTheirDumps)
 TEST(RestartRecords, BondsAndFixesOfMolecules)
 {
   const RestartRun run = read_file(style_file("molecular.restart"));
-  const DumpFrame& table = run.frame.bonds.table;
+  const Table& table = run.frame.bonds;
   EXPECT_EQ(values_of<std::int64_t>(table, "id1"), (std::vector<std::int64_t>{ 3, 1, 2 }));
   EXPECT_EQ(values_of<std::int64_t>(table, "id2"), (std::vector<std::int64_t>{ 4, 2, 3 }));
   EXPECT_EQ(values_of<std::int32_t>(table, "btype"), (std::vector<std::int32_t>{ 2, 1, 1 }));
-  EXPECT_EQ(values_of<double>(run.frame.particles, "f_1"), std::vector<double>(4, 2.5));
-  EXPECT_EQ(values_of<double>(run.frame.particles, "f_two"),
-    (std::vector<double>{ 1, 2, 1, 2, 1, 2, 1, 2 }));
+  EXPECT_EQ(values_of<double>(run.frame.rows, "f_1"), std::vector<double>(4, 2.5));
+  EXPECT_EQ(
+    values_of<double>(run.frame.rows, "f_two"), (std::vector<double>{ 1, 2, 1, 2, 1, 2, 1, 2 }));
 }
 
 TEST(RestartRecords, WholeNumbers)
@@ -289,7 +289,7 @@ TEST(RestartRecords, WholeNumbers)
         file_of("granular", { restart_builder::granular_record(particle, 0.5, { 4, 5, 6 }) });
       builder.swapped = swapped;
       builder.tag_bytes = 8;
-      const DumpFrame frame = read_run(builder).frame.particles;
+      const Table frame = read_run(builder).frame.rows;
       EXPECT_EQ(values_of<std::int64_t>(frame, "id"),
         std::vector<std::int64_t>{ (std::int64_t{ 1 } << 53) - 1 });
       EXPECT_EQ(values_of<std::int32_t>(frame, "type"), std::vector<std::int32_t>{ 1 });
@@ -324,7 +324,7 @@ TEST(RestartRecords, Images)
         RestartBuilder builder = file_of("granular", { record });
         builder.tag_bytes = bits == 21 ? 8 : 4;
         const auto number = static_cast<std::int32_t>(count);
-        EXPECT_EQ(values_of<std::int32_t>(read_run(builder).frame.particles, "image"),
+        EXPECT_EQ(values_of<std::int32_t>(read_run(builder).frame.rows, "image"),
           (std::vector<std::int32_t>{ 1, number, number }))
           << bits << " " << as_bits;
       }
@@ -345,7 +345,7 @@ TEST(RestartRecords, LargeImages)
     particle.image = restart_builder::image_of(counts.x, counts.y, counts.z, 21);
     RestartBuilder builder = file_of("granular", { restart_builder::granular_record(particle) });
     builder.tag_bytes = 8;
-    EXPECT_EQ(values_of<std::int32_t>(read_run(builder).frame.particles, "image"),
+    EXPECT_EQ(values_of<std::int32_t>(read_run(builder).frame.rows, "image"),
       (std::vector<std::int32_t>{ counts.x, counts.y, counts.z }));
   }
 }
@@ -358,10 +358,10 @@ TEST(RestartRecords, RequestsAndColumns)
   builder.hi = { 20, 1, 1 };
   builder.timestep = 77;
   builder.time = 0.125;
-  RestartRequest request;
-  request.lines.point_origin = { 10, 0, 0 };
-  request.wanted = [](std::string_view name) { return name == "radius" || name == "x"; };
-  const DumpFrame frame = read_run(builder, request).frame.particles;
+  Request request;
+  request.point_origin = { 10, 0, 0 };
+  request.wanted = [](std::string_view name, bool) { return name == "radius" || name == "x"; };
+  const Table frame = read_run(builder, request).frame.rows;
   ASSERT_EQ(frame.arrays.size(), 2u);
   EXPECT_EQ(values_of<double>(frame, "x"), std::vector<double>{ 10.25 });
   EXPECT_EQ(points_of(frame), (std::vector<double>{ 0.25, 0.5, 0.75 }));
@@ -387,7 +387,7 @@ TEST(RestartRecords, UnknownStyles)
   Particle particle;
   particle.v = { 1, 2, 3 };
   const RestartRun alone = read_run(file_of("peri/secret", { part_of(particle, { 1, 2, 3, 4 }) }));
-  EXPECT_EQ(values_of<double>(alone.frame.particles, "v"), (std::vector<double>{ 1, 2, 3 }));
+  EXPECT_EQ(values_of<double>(alone.frame.rows, "v"), (std::vector<double>{ 1, 2, 3 }));
   EXPECT_EQ(alone.notices.size(), 1u);
   EXPECT_NE(alone.said().find("'peri/secret'"), std::string::npos);
 
@@ -399,7 +399,7 @@ TEST(RestartRecords, UnknownStyles)
         { part_of(particle, { 1 }), restart_builder::granular_record(particle, 0.5) }) });
   builder.styles = { "peri/secret", "granular" };
   const RestartRun first = read_run(builder);
-  EXPECT_EQ(values_of<double>(first.frame.particles, "radius"), (std::vector<double>{ 0.75, 0.5 }));
+  EXPECT_EQ(values_of<double>(first.frame.rows, "radius"), (std::vector<double>{ 0.75, 0.5 }));
   EXPECT_EQ(first.notices.size(), 1u);
 
   // another length than the table says
@@ -408,8 +408,8 @@ TEST(RestartRecords, UnknownStyles)
       { restart_builder::granular_record(particle, 0.75), part_of(particle, { 1, 2 }) }) });
   builder.styles = { "granular", "charge" };
   const RestartRun other = read_run(builder);
-  EXPECT_EQ(values_of<double>(other.frame.particles, "radius"), std::vector<double>{ 0.75 });
-  EXPECT_EQ(array_of(other.frame.particles, "q"), nullptr);
+  EXPECT_EQ(values_of<double>(other.frame.rows, "radius"), std::vector<double>{ 0.75 });
+  EXPECT_EQ(array_of(other.frame.rows, "q"), nullptr);
   EXPECT_NE(other.said().find("'charge'"), std::string::npos);
 }
 
@@ -460,12 +460,12 @@ TEST(RestartRecords, EveryStyleOfTheTable)
         {
           if (column == "mol")
           {
-            EXPECT_EQ(values_of<std::int64_t>(run->frame.particles, "mol"),
+            EXPECT_EQ(values_of<std::int64_t>(run->frame.rows, "mol"),
               std::vector<std::int64_t>{ static_cast<std::int64_t>(slot) });
           }
         }
         EXPECT_EQ(slot, style.values) << name;
-        EXPECT_EQ(run->frame.bonds.table.rows, style.bonds ? 1 : 0) << name;
+        EXPECT_EQ(run->frame.bonds.rows, style.bonds ? 1 : 0) << name;
       }
     }
   }
@@ -491,10 +491,10 @@ TEST(RestartRecords, WhatFixesHave)
   const RestartRun run =
     read_run(file({ { 2, 5, 6, 0, 1, 1, 1, 1, 4, 7, 8, 9 }, { 2, 6, 2, 0, 4, 1, 2, 3 } }));
   EXPECT_EQ(run.said(), "");
-  EXPECT_EQ(values_of<double>(run.frame.particles, "f_one"), (std::vector<double>{ 5, 6 }));
+  EXPECT_EQ(values_of<double>(run.frame.rows, "f_one"), (std::vector<double>{ 5, 6 }));
   EXPECT_EQ(
-    values_of<double>(run.frame.particles, "f_three"), (std::vector<double>{ 7, 8, 9, 1, 2, 3 }));
-  EXPECT_EQ(array_of(run.frame.particles, "f_contacts"), nullptr);
+    values_of<double>(run.frame.rows, "f_three"), (std::vector<double>{ 7, 8, 9, 1, 2, 3 }));
+  EXPECT_EQ(array_of(run.frame.rows, "f_contacts"), nullptr);
   // lengths that lie: none, and all else
   for (const std::vector<std::vector<double>>& behind :
     std::vector<std::vector<std::vector<double>>>{
@@ -505,13 +505,13 @@ TEST(RestartRecords, WhatFixesHave)
   {
     for (int piece = 0; piece < 2; ++piece)
     {
-      RestartRequest request;
+      Request request;
       request.piece = piece;
       request.pieces = 2;
       const RestartRun lie = read_run(file(behind), request);
-      EXPECT_EQ(array_of(lie.frame.particles, "f_one"), nullptr);
-      EXPECT_EQ(array_of(lie.frame.particles, "f_three"), nullptr);
-      EXPECT_EQ(values_of<double>(lie.frame.particles, "radius"), std::vector<double>{ 0.1 });
+      EXPECT_EQ(array_of(lie.frame.rows, "f_one"), nullptr);
+      EXPECT_EQ(array_of(lie.frame.rows, "f_three"), nullptr);
+      EXPECT_EQ(values_of<double>(lie.frame.rows, "radius"), std::vector<double>{ 0.1 });
       EXPECT_EQ(lie.notices.size(), 1u);
     }
   }
@@ -534,9 +534,9 @@ TEST(RestartRecords, FixesInAnotherOrder)
   const RestartRun all =
     run(fixes, { 5, 1, 2, 3, 4, 2, 0, 7, 1, 1, 1, 1, 1, 1, 4, 7, 8, 9, 3, 5, 6 });
   EXPECT_EQ(all.said(), "");
-  EXPECT_EQ(values_of<double>(all.frame.particles, "f_a"), (std::vector<double>{ 5, 6 }));
-  EXPECT_EQ(values_of<double>(all.frame.particles, "f_b"), (std::vector<double>{ 1, 2, 3, 4 }));
-  EXPECT_EQ(values_of<double>(all.frame.particles, "f_c"), (std::vector<double>{ 7, 8, 9 }));
+  EXPECT_EQ(values_of<double>(all.frame.rows, "f_a"), (std::vector<double>{ 5, 6 }));
+  EXPECT_EQ(values_of<double>(all.frame.rows, "f_b"), (std::vector<double>{ 1, 2, 3, 4 }));
+  EXPECT_EQ(values_of<double>(all.frame.rows, "f_c"), (std::vector<double>{ 7, 8, 9 }));
   // more than one way, and none: two fixes as long, a part as long of a fix without columns, one that is too long
   for (const auto& [of, behind] :
     std::vector<std::pair<Fixes, std::vector<double>>>{
@@ -549,11 +549,11 @@ TEST(RestartRecords, FixesInAnotherOrder)
         { 4, 7, 8, 9, 3, 0, 0 } } })
   {
     const RestartRun none = run(of, behind);
-    EXPECT_EQ(array_of(none.frame.particles, "f_a"), nullptr);
-    EXPECT_EQ(array_of(none.frame.particles, "f_c"), nullptr);
+    EXPECT_EQ(array_of(none.frame.rows, "f_a"), nullptr);
+    EXPECT_EQ(array_of(none.frame.rows, "f_c"), nullptr);
     EXPECT_NE(none.said().find("what fixes have of particles is not where it should be"),
       std::string::npos);
-    EXPECT_EQ(values_of<double>(none.frame.particles, "radius"), std::vector<double>{ 0.1 });
+    EXPECT_EQ(values_of<double>(none.frame.rows, "radius"), std::vector<double>{ 0.1 });
   }
 }
 
@@ -579,11 +579,10 @@ TEST(RestartRecords, LongerThanTheTable)
       std::string::npos)
       << run.said();
     EXPECT_EQ(run.notices.size(), 1u);
-    EXPECT_EQ(array_of(run.frame.particles, "omega"), nullptr);
-    EXPECT_EQ(array_of(run.frame.particles, "radius"), nullptr);
-    EXPECT_EQ(array_of(run.frame.particles, "f_one"), nullptr);
-    EXPECT_EQ(
-      values_of<double>(run.frame.particles, "v"), (std::vector<double>{ 1, 2, 3, 1, 2, 3 }));
+    EXPECT_EQ(array_of(run.frame.rows, "omega"), nullptr);
+    EXPECT_EQ(array_of(run.frame.rows, "radius"), nullptr);
+    EXPECT_EQ(array_of(run.frame.rows, "f_one"), nullptr);
+    EXPECT_EQ(values_of<double>(run.frame.rows, "v"), (std::vector<double>{ 1, 2, 3, 1, 2, 3 }));
   }
 }
 
@@ -607,7 +606,7 @@ TEST(RestartRecords, AnyThreadsAndPieces)
   const std::string bytes = builder.file();
   const auto source = granular::open_memory(bytes);
   const RestartRun whole = read_run(*source);
-  const auto expected = values_of<std::int64_t>(whole.frame.particles, "id");
+  const auto expected = values_of<std::int64_t>(whole.frame.rows, "id");
   ASSERT_EQ(expected.size(), 60000u);
   for (std::size_t i = 0, chunk = 0, in_chunk = 0; i < expected.size(); ++i)
   {
@@ -625,13 +624,13 @@ TEST(RestartRecords, AnyThreadsAndPieces)
       std::vector<std::int64_t> found;
       for (int piece = 0; piece<pieces; piece += pieces> 5 ? 6999 : 1)
       {
-        RestartRequest request;
-        request.lines.threads = threads;
+        Request request;
+        request.threads = threads;
         request.piece = piece;
         request.pieces = pieces;
         const RestartRun part = read_run(*source, request);
-        const auto more = values_of<std::int64_t>(part.frame.particles, "id");
-        EXPECT_EQ(part.frame.particles.header.rows, 60000);
+        const auto more = values_of<std::int64_t>(part.frame.rows, "id");
+        EXPECT_EQ(part.frame.rows.header.rows, 60000);
         if (pieces > 5)
         {
           EXPECT_LE(more.size(), 1u);

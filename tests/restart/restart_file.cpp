@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Restart files in the list of a run, and which files are some.
-#include "granular/restart/restart_file.h"
+#include "granular/formats/restart/restart_file.h"
 
 #include "restart_files.h"
 

@@ -3,7 +3,7 @@
 #ifndef granular_tests_restart_restart_files_h
 #define granular_tests_restart_restart_files_h
 
-#include "granular/restart/restart_layout.h"
+#include "granular/formats/restart/restart_layout.h"
 
 #include "restart_builder.h"
 

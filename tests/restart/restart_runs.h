@@ -4,8 +4,8 @@
 #define granular_tests_restart_restart_runs_h
 
 #include "granular/bytes/byte_source.h"
-#include "granular/restart/restart_layout.h"
-#include "granular/restart/restart_reader.h"
+#include "granular/formats/restart/restart_layout.h"
+#include "granular/formats/restart/restart_reader.h"
 
 #include "restart_builder.h"
 
@@ -21,7 +21,7 @@
 struct RestartRun
 {
   granular::RestartLayout layout;
-  granular::RestartFrame frame;
+  granular::Tables frame;
   granular::Notices notices;
 
   std::string said() const
@@ -35,41 +35,42 @@ struct RestartRun
   }
 };
 
-inline RestartRun read_run(
-  const granular::ByteSource& source, const granular::RestartRequest& request = {})
+inline RestartRun read_run(const granular::ByteSource& source,
+  const granular::Request& request = {}, int history_layout = granular::automatic_history)
 {
   RestartRun run;
   granular::Progress progress;
   run.layout = granular::read_layout(source, run.notices, progress);
   run.notices.clear();
-  run.frame = granular::read_restart(source, run.layout, request, run.notices, progress);
+  run.frame =
+    granular::read_restart(source, run.layout, history_layout, request, run.notices, progress);
   return run;
 }
 
-inline RestartRun read_run(
-  const restart_builder::RestartBuilder& builder, const granular::RestartRequest& request = {})
+inline RestartRun read_run(const restart_builder::RestartBuilder& builder,
+  const granular::Request& request = {}, int history_layout = granular::automatic_history)
 {
   const std::string bytes = builder.file();
-  return read_run(*granular::open_memory(bytes), request);
+  return read_run(*granular::open_memory(bytes), request, history_layout);
 }
 
 /// A file, by the layout of another one.
 inline RestartRun read_as(
-  const std::string& layout, const std::string& bytes, const granular::RestartRequest& request = {})
+  const std::string& layout, const std::string& bytes, const granular::Request& request = {})
 {
   RestartRun run;
   granular::Progress progress;
   run.layout = granular::read_layout(*granular::open_memory(layout), run.notices, progress);
   run.notices.clear();
-  run.frame = granular::read_restart(
-    *granular::open_memory(bytes), run.layout, request, run.notices, progress);
+  run.frame = granular::read_restart(*granular::open_memory(bytes), run.layout,
+    granular::automatic_history, request, run.notices, progress);
   return run;
 }
 
 /// An array, or null.
-inline const granular::DumpArray* array_of(const granular::DumpFrame& frame, std::string_view name)
+inline const granular::TableArray* array_of(const granular::Table& frame, std::string_view name)
 {
-  for (const granular::DumpArray& array : frame.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     if (array.info.name == name)
     {
@@ -81,9 +82,9 @@ inline const granular::DumpArray* array_of(const granular::DumpFrame& frame, std
 
 /// Its values, row by row; none if it is not there.
 template <class Value>
-std::vector<Value> values_of(const granular::DumpFrame& frame, std::string_view name)
+std::vector<Value> values_of(const granular::Table& frame, std::string_view name)
 {
-  const granular::DumpArray* const array = array_of(frame, name);
+  const granular::TableArray* const array = array_of(frame, name);
   if (!array)
   {
     return {};
@@ -95,24 +96,24 @@ std::vector<Value> values_of(const granular::DumpFrame& frame, std::string_view 
   return { values, values + array->block.bytes() / sizeof(Value) };
 }
 
-inline std::vector<double> points_of(const granular::DumpFrame& frame)
+inline std::vector<double> points_of(const granular::Table& frame)
 {
   const auto* const values = static_cast<const double*>(frame.points.data());
   return { values, values + 3 * frame.rows };
 }
 
-inline std::vector<double> line_points_of(const granular::LocalFrame& frame)
+inline std::vector<double> line_points_of(const granular::Table& frame)
 {
   const auto* const values = static_cast<const double*>(frame.lines.points.data());
   return { values, values + 6 * frame.lines.count };
 }
 
 /// Everything that was read, byte for byte.
-inline std::string bytes_of(const granular::DumpFrame& frame)
+inline std::string bytes_of(const granular::Table& frame)
 {
   std::string bytes = std::to_string(frame.rows) + " of " + std::to_string(frame.header.rows) +
     ": " + frame.schema.text();
-  for (const granular::DumpArray& array : frame.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     bytes += "|" + array.info.name + "|";
     bytes.append(static_cast<const char*>(array.block.data()), array.block.bytes());
@@ -121,9 +122,9 @@ inline std::string bytes_of(const granular::DumpFrame& frame)
   return bytes.append(static_cast<const char*>(frame.points.data()), frame.points.bytes());
 }
 
-inline std::string bytes_of(const granular::RestartFrame& frame)
+inline std::string bytes_of(const granular::Tables& frame)
 {
-  std::string bytes = bytes_of(frame.particles) + bytes_of(frame.bonds.table);
+  std::string bytes = bytes_of(frame.rows) + bytes_of(frame.bonds);
   const granular::Lines& lines = frame.bonds.lines;
   bytes.append(static_cast<const char*>(lines.points.data()), lines.points.bytes());
   return bytes.append(static_cast<const char*>(lines.lengths.data()), lines.lengths.bytes());

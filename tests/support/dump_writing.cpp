@@ -85,7 +85,7 @@ Written write_as(const std::string& path, const Frames& frames, const DumpFormat
 }
 }
 
-ReadFrameView::ReadFrameView(DumpFrame read)
+ReadFrameView::ReadFrameView(Table read)
   : frame(std::move(read))
 {
   view.header = frame.header;
@@ -99,7 +99,7 @@ ReadFrameView::ReadFrameView(DumpFrame read)
   {
     view.columns.push_back(column.name);
   }
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     const void* data = array.block.data();
     if (array.info.type == ValueType::Text)

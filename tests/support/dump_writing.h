@@ -3,8 +3,8 @@
 #ifndef granular_tests_support_dump_writing_h
 #define granular_tests_support_dump_writing_h
 
-#include "granular/dump/read/dump_reader.h"
-#include "granular/dump/write/dump_writer.h"
+#include "granular/formats/dump/read/dump_reader.h"
+#include "granular/formats/dump/write/dump_writer.h"
 
 #include <cstdint>
 #include <functional>
@@ -15,9 +15,9 @@
 /// A frame that was read, as one that is to be written.
 struct ReadFrameView
 {
-  explicit ReadFrameView(granular::DumpFrame read);
+  explicit ReadFrameView(granular::Table read);
 
-  granular::DumpFrame frame;
+  granular::Table frame;
   std::vector<std::vector<std::string>> texts; ///< of each array of texts
   granular::FrameView view;
 };

@@ -2,8 +2,8 @@
 #include "dumps.h"
 
 #include "granular/common/words.h"
-#include "granular/dump/formats/dump_files.h"
-#include "granular/dump/formats/frame_rows.h"
+#include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/formats/dump/grammar/frame_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::vector<To> converted(const Block& block, std::size_t count)
 }
 
 template <typename To>
-std::vector<To> values_of(const DumpFrame& frame, const DumpArray& array)
+std::vector<To> values_of(const Table& frame, const TableArray& array)
 {
   const std::size_t count = static_cast<std::size_t>(frame.rows) * array.info.columns.size();
   switch (array.info.type)
@@ -75,7 +75,7 @@ std::vector<float> Decoded::single_points() const
 std::string Decoded::names() const
 {
   std::string text;
-  for (const DumpArray& one : frame.arrays)
+  for (const TableArray& one : frame.arrays)
   {
     text += (text.empty() ? "" : " ") + one.info.name;
   }
@@ -85,12 +85,12 @@ std::string Decoded::names() const
 bool Decoded::has(const std::string& name) const
 {
   return std::any_of(frame.arrays.begin(), frame.arrays.end(),
-    [&](const DumpArray& one) { return one.info.name == name; });
+    [&](const TableArray& one) { return one.info.name == name; });
 }
 
-const DumpArray& Decoded::array(const std::string& name) const
+const TableArray& Decoded::array(const std::string& name) const
 {
-  for (const DumpArray& one : frame.arrays)
+  for (const TableArray& one : frame.arrays)
   {
     if (one.info.name == name)
     {
@@ -116,7 +116,7 @@ std::vector<std::int64_t> Decoded::integers(const std::string& name) const
 
 std::vector<std::string> Decoded::texts(const std::string& name) const
 {
-  const DumpArray& one = this->array(name);
+  const TableArray& one = this->array(name);
   if (one.info.type != ValueType::Text)
   {
     throw std::invalid_argument(name + " does not hold a text a row");
@@ -172,20 +172,20 @@ std::string Dump::said() const
   return lines_of(index_.notices);
 }
 
-Decoded Dump::read(const DumpRequest& request, std::size_t frame) const
+Decoded Dump::read(const Request& request, std::size_t frame) const
 {
   Progress progress;
   return this->read(request, frame, progress);
 }
 
-Decoded Dump::read(const DumpRequest& request, std::size_t frame, Progress& progress) const
+Decoded Dump::read(const Request& request, std::size_t frame, Progress& progress) const
 {
   Decoded decoded;
   decoded.frame = read_dump(*source_, this->entry(frame), request, decoded.notices, progress);
   return decoded;
 }
 
-std::string Dump::error(const DumpRequest& request, std::size_t frame) const
+std::string Dump::error(const Request& request, std::size_t frame) const
 {
   return error_of([&] { this->read(request, frame); });
 }
@@ -207,10 +207,10 @@ std::string lines_of(const Notices& notices)
   return text;
 }
 
-DumpRequest everything()
+Request everything()
 {
-  DumpRequest request;
-  request.wanted = [](const ArrayInfo&) { return true; };
+  Request request;
+  request.wanted = [](std::string_view, bool) { return true; };
   return request;
 }
 

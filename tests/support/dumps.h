@@ -14,7 +14,7 @@
 /// A decoded frame with its notices, easy to look at.
 struct Decoded
 {
-  granular::DumpFrame frame;
+  granular::Table frame;
   granular::Notices notices;
 
   std::int64_t rows() const { return frame.rows; }
@@ -33,7 +33,7 @@ struct Decoded
   std::string said() const;
 
 private:
-  const granular::DumpArray& array(const std::string& name) const;
+  const granular::TableArray& array(const std::string& name) const;
 };
 
 /// The text with every occurrence of what replaced.
@@ -53,12 +53,12 @@ public:
   std::vector<std::int64_t> steps() const;
   std::string said() const; ///< the notices of the index, one a line
 
-  Decoded read(const granular::DumpRequest& request = {}, std::size_t frame = 0) const;
+  Decoded read(const granular::Request& request = {}, std::size_t frame = 0) const;
   Decoded read(
-    const granular::DumpRequest& request, std::size_t frame, granular::Progress& progress) const;
+    const granular::Request& request, std::size_t frame, granular::Progress& progress) const;
 
   /// What read() throws, or "".
-  std::string error(const granular::DumpRequest& request = {}, std::size_t frame = 0) const;
+  std::string error(const granular::Request& request = {}, std::size_t frame = 0) const;
 
 private:
   std::unique_ptr<std::string> text_;
@@ -75,7 +75,7 @@ std::string one_frame(const std::string& columns, const std::string& rows,
 std::string lines_of(const granular::Notices& notices);
 
 /// Nobody of these names is there: all arrays, also the coordinate columns.
-granular::DumpRequest everything();
+granular::Request everything();
 
 /// Files in a folder of this test's own.
 class Folder

@@ -17,7 +17,7 @@ std::string bytes_of(const Block& block)
   return { static_cast<const char*>(block.data()), block.bytes() };
 }
 
-std::string texts_of(const DumpArray& array, std::int64_t rows)
+std::string texts_of(const TableArray& array, std::int64_t rows)
 {
   const auto* const indices = static_cast<const std::int32_t*>(array.block.data());
   std::string texts;
@@ -53,7 +53,7 @@ std::string merged(const std::string& lines, const std::string& more)
 }
 }
 
-FrameContent content_of(const DumpFrame& frame)
+FrameContent content_of(const Table& frame)
 {
   FrameContent content;
   content.head = "step " + std::to_string(frame.header.timestep) + ", rows of all " +
@@ -65,7 +65,7 @@ FrameContent content_of(const DumpFrame& frame)
   content.rows = frame.rows;
   content.values.push_back(bytes_of(frame.points));
   content.head += ", arrays";
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     const bool texts = array.info.type == ValueType::Text;
     content.head += " " + array.info.name + ":" + std::to_string(static_cast<int>(array.info.type));
@@ -125,7 +125,7 @@ std::string Outcome::difference(const Outcome& other) const
                             : content.difference(other.content);
 }
 
-Outcome outcome_of(const ReadFrame& read, const DumpRequest& request)
+Outcome outcome_of(const ReadFrame& read, const Request& request)
 {
   Outcome outcome;
   Notices notices;
@@ -149,19 +149,19 @@ Outcome outcome_of(const ReadFrame& read, const DumpRequest& request)
   return outcome;
 }
 
-DumpRequest plainly(DumpRequest request)
+Request plainly(Request request)
 {
   return in_chunks(std::move(request), 1, std::size_t{ 1 } << 40);
 }
 
-DumpRequest in_chunks(DumpRequest request, int threads, std::size_t chunk_bytes)
+Request in_chunks(Request request, int threads, std::size_t chunk_bytes)
 {
   request.threads = threads;
   request.chunk_bytes = chunk_bytes;
   return request;
 }
 
-Outcome outcome_of_parts(const ReadFrame& read, DumpRequest request, int pieces)
+Outcome outcome_of_parts(const ReadFrame& read, Request request, int pieces)
 {
   Outcome all;
   request.pieces = pieces;
@@ -183,10 +183,10 @@ Outcome outcome_of_parts(const ReadFrame& read, DumpRequest request, int pieces)
   return all;
 }
 
-std::vector<DumpRequest> all_requests()
+std::vector<Request> all_requests()
 {
   const std::array<double, 6> half = { -1e300, 0.02, 1, -1, 0, 1e300 };
-  std::vector<DumpRequest> all(9);
+  std::vector<Request> all(9);
   all[0] = everything();
   all[1].stride = 3;
   all[2].region = half;
@@ -199,12 +199,12 @@ std::vector<DumpRequest> all_requests()
   all[4].sort_by_id = true;
   all[5].sort_by_id = true;
   all[5].stride = 2;
-  all[5].wanted = [](const ArrayInfo&) { return false; };
+  all[5].wanted = [](std::string_view, bool) { return false; };
   all[6].coordinates = Coordinates::Unwrapped;
   all[6].region = half;
   all[7].coordinates = Coordinates::Scaled;
   all[7].single_precision = true;
-  all[8].wanted = [](const ArrayInfo&) { return false; };
+  all[8].wanted = [](std::string_view, bool) { return false; };
   all[8].stride = 5;
   return all;
 }

@@ -2,7 +2,7 @@
 #ifndef granular_tests_support_frame_content_h
 #define granular_tests_support_frame_content_h
 
-#include "granular/dump/read/dump_reader.h"
+#include "granular/formats/dump/read/dump_reader.h"
 
 #include <cstdint>
 #include <functional>
@@ -24,7 +24,7 @@ struct FrameContent
   std::string difference(const FrameContent& other) const;
 };
 
-FrameContent content_of(const granular::DumpFrame& frame);
+FrameContent content_of(const granular::Table& frame);
 
 /// What came of reading: the content and the notices, or what was thrown.
 struct Outcome
@@ -36,22 +36,21 @@ struct Outcome
   std::string difference(const Outcome& other) const;
 };
 
-using ReadFrame = std::function<granular::DumpFrame(
-  const granular::DumpRequest& request, granular::Notices& notices)>;
+using ReadFrame =
+  std::function<granular::Table(const granular::Request& request, granular::Notices& notices)>;
 
-Outcome outcome_of(const ReadFrame& read, const granular::DumpRequest& request);
+Outcome outcome_of(const ReadFrame& read, const granular::Request& request);
 
 /// A request by one thread in one chunk: what all others are compared with.
-granular::DumpRequest plainly(granular::DumpRequest request);
+granular::Request plainly(granular::Request request);
 
 /// The same rows by so many threads in chunks of so many bytes.
-granular::DumpRequest in_chunks(
-  granular::DumpRequest request, int threads, std::size_t chunk_bytes);
+granular::Request in_chunks(granular::Request request, int threads, std::size_t chunk_bytes);
 
 /// The parts of a frame, put together.
-Outcome outcome_of_parts(const ReadFrame& read, granular::DumpRequest request, int pieces);
+Outcome outcome_of_parts(const ReadFrame& read, granular::Request request, int pieces);
 
 /// Everything that can be asked of a frame: all columns, filters, order, precision, coordinates.
-std::vector<granular::DumpRequest> all_requests();
+std::vector<granular::Request> all_requests();
 
 #endif

@@ -31,9 +31,9 @@ std::vector<T> values(const granular::Block& block, std::size_t rows)
   return std::vector<T>(from, from + rows);
 }
 
-const granular::Block& block_of(const granular::DumpFrame& frame, const std::string& name)
+const granular::Block& block_of(const granular::Table& frame, const std::string& name)
 {
-  for (const granular::DumpArray& array : frame.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     if (array.info.name == name)
     {
@@ -170,7 +170,7 @@ double Grains::solid_fraction() const
 std::string Grains::bytes() const
 {
   std::string all = text_of(frame.points);
-  for (const granular::DumpArray& array : frame.arrays)
+  for (const granular::TableArray& array : frame.arrays)
   {
     all += text_of(array.block);
   }

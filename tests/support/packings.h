@@ -34,7 +34,7 @@ struct Grains
 
   std::size_t size() const { return static_cast<std::size_t>(frame.rows); }
 
-  granular::DumpFrame frame;
+  granular::Table frame;
   std::vector<granular::Vector3> points;
   std::vector<double> radius;
   std::vector<std::int64_t> id;

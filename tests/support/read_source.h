@@ -3,13 +3,13 @@
 #ifndef tests_support_read_source_h
 #define tests_support_read_source_h
 
-#include "granular/dump/read/dump_reader.h"
+#include "granular/formats/dump/read/dump_reader.h"
 #include "granular/frames/file_index.h"
 
 namespace granular
 {
-inline DumpFrame read_dump(const ByteSource& source, const FrameEntry& entry,
-  const DumpRequest& request, Notices& notices, Progress& progress)
+inline Table read_dump(const ByteSource& source, const FrameEntry& entry, const Request& request,
+  Notices& notices, Progress& progress)
 {
   FileIndex file;
   file.path = source.path();

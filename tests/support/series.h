@@ -4,7 +4,7 @@
 #ifndef granular_tests_support_series_h
 #define granular_tests_support_series_h
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/frames/run_index.h"
 
 #include "dumps.h"
@@ -112,7 +112,7 @@ struct Series
     return text;
   }
 
-  Decoded read(std::size_t frame, const granular::DumpRequest& request = {}) const
+  Decoded read(std::size_t frame, const granular::Request& request = {}) const
   {
     Decoded decoded;
     granular::Progress progress;

@@ -18,8 +18,8 @@ namespace
 {
 using granular::Block;
 using granular::ColumnRole;
-using granular::DumpArray;
-using granular::DumpFrame;
+using granular::Table;
+using granular::TableArray;
 using granular::ValueType;
 
 constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
@@ -81,10 +81,10 @@ std::uint64_t bits(std::uint64_t row, std::uint64_t what)
   return value * 0xbf58476d1ce4e5b9u;
 }
 
-DumpArray make_array(const std::string& name, ValueType type, std::size_t components,
+TableArray make_array(const std::string& name, ValueType type, std::size_t components,
   std::size_t rows, ColumnRole role = ColumnRole::Other)
 {
-  DumpArray array;
+  TableArray array;
   array.info.name = name;
   array.info.type = type;
   array.info.role = role;
@@ -119,11 +119,11 @@ std::size_t word_of(std::size_t number)
 }
 
 /// Rows of the whole by their numbers; words as they first occur in the rows `known` of the whole.
-DumpFrame make_rows(const Ids& ids, const std::vector<std::size_t>& numbers,
+Table make_rows(const Ids& ids, const std::vector<std::size_t>& numbers,
   const std::vector<std::size_t>& known, bool with_id_array, bool single_precision)
 {
   const std::size_t rows = numbers.size();
-  DumpFrame frame;
+  Table frame;
   frame.rows = static_cast<std::int64_t>(rows);
   frame.points = Block(rows * (single_precision ? 12 : 24));
   fill(frame.points, numbers, 0);
@@ -141,7 +141,7 @@ DumpFrame make_rows(const Ids& ids, const std::vector<std::size_t>& numbers,
       static_cast<std::int64_t*>(frame.arrays.back().block.data()),
       [&](std::size_t number) { return ids[number]; });
   }
-  DumpArray texts = make_array("element", ValueType::Text, 1, rows);
+  TableArray texts = make_array("element", ValueType::Text, 1, rows);
   std::array<std::int32_t, 13> index;
   index.fill(-1);
   for (const std::size_t number : known)
@@ -207,7 +207,7 @@ void check(granular::Communicator& ranks, const Ids& ids, const Spread& spread, 
   granular::Notices notices;
   sort_by_id(frame, own_ids, ranks, notices, {}, granular::Executor(1 + ranks.rank() % 2));
   EXPECT_TRUE(notices.empty());
-  const DumpFrame expected = sorted_frame(
+  const Table expected = sorted_frame(
     ids, ids.size() * rank / size, ids.size() * (rank + 1) / size, with_id_array, single_precision);
   EXPECT_EQ(frame.rows, expected.rows);
   EXPECT_TRUE(bytes_of(frame) == bytes_of(expected));
@@ -248,12 +248,12 @@ MadeFrame make_frame(
   return made;
 }
 
-std::string bytes_of(const DumpFrame& frame)
+std::string bytes_of(const Table& frame)
 {
   const auto content = [](const Block& block)
   { return std::string(static_cast<const char*>(block.data()), block.bytes()); };
   std::string bytes = content(frame.points);
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     bytes += "\n" + array.info.name + "\n" + content(array.block);
     for (const std::string& word : array.words)
@@ -264,7 +264,7 @@ std::string bytes_of(const DumpFrame& frame)
   return bytes;
 }
 
-DumpFrame sorted_frame(
+Table sorted_frame(
   const Ids& ids, std::size_t first, std::size_t last, bool with_id_array, bool single_precision)
 {
   const std::vector<std::size_t> all = numbers_from(0, ids.size());

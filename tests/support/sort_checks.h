@@ -3,7 +3,7 @@
 #ifndef granular_tests_support_sort_checks_h
 #define granular_tests_support_sort_checks_h
 
-#include "granular/dump/read/dump_reader.h"
+#include "granular/formats/dump/read/dump_reader.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstdint>
@@ -23,17 +23,17 @@ const std::vector<std::string>& arrangements();
 /// whole frame, so that any row can be told from any other, and hold any bits there may be.
 struct MadeFrame
 {
-  granular::DumpFrame frame;
+  granular::Table frame;
   granular::Block ids; ///< where they are not an array
 };
 MadeFrame make_frame(const Ids& ids, std::size_t first, std::size_t last, bool with_id_array = true,
   bool single_precision = false);
 
 /// All that the frame holds, bit for bit.
-std::string bytes_of(const granular::DumpFrame& frame);
+std::string bytes_of(const granular::Table& frame);
 
 /// The rows of the whole, by a stable sort of their numbers.
-granular::DumpFrame sorted_frame(const Ids& ids, std::size_t first, std::size_t last,
+granular::Table sorted_frame(const Ids& ids, std::size_t first, std::size_t last,
   bool with_id_array = true, bool single_precision = false);
 
 /// Called on all ranks: sorts frames spread over them in many ways.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/vtk_files/legacy_vtk.h"
+#include "granular/formats/vtk_files/legacy_vtk.h"
 
 #include "../support/error_of.h"
 

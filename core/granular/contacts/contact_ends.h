@@ -4,7 +4,7 @@
 
 #include "granular/contacts/contact_rows.h"
 #include "granular/geometry/box.h"
-#include "granular/local/minimum_image.h"
+#include "granular/lines/minimum_image.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -14,14 +14,14 @@ namespace granular
 namespace
 {
 /// The frame, with memory for the rows.
-DumpFrame empty_frame(const PackingPlan& plan)
+Table empty_frame(const PackingPlan& plan)
 {
   std::vector<std::string> columns = { "id", "type", "x", "y", "z", "radius", "vx", "vy", "vz" };
   if (plan.request.arrangement == Arrangement::Chain)
   {
     columns.insert(columns.begin() + 2, "mol");
   }
-  DumpFrame frame;
+  Table frame;
   frame.rows = plan.last - plan.first;
   frame.header.rows = plan.particles;
   frame.header.box = plan.box;
@@ -42,15 +42,15 @@ DumpFrame empty_frame(const PackingPlan& plan)
 
 /// The values of an array of the frame; null if it has none.
 template <typename T>
-T* array_of(const DumpFrame& frame, std::string_view name)
+T* array_of(const Table& frame, std::string_view name)
 {
   const auto found = std::ranges::find(
-    frame.arrays, name, [](const DumpArray& array) { return std::string_view(array.info.name); });
+    frame.arrays, name, [](const TableArray& array) { return std::string_view(array.info.name); });
   return found == frame.arrays.end() ? nullptr : static_cast<T*>(found->block.data());
 }
 }
 
-DumpFrame make_packing(const PackingRequest& request, Progress& progress)
+Table make_packing(const PackingRequest& request, Progress& progress)
 {
   PartialProgress part(progress);
   progress.step(0);
@@ -60,10 +60,10 @@ DumpFrame make_packing(const PackingRequest& request, Progress& progress)
   return make_packing(plan, part);
 }
 
-DumpFrame make_packing(const PackingPlan& plan, Progress& progress)
+Table make_packing(const PackingPlan& plan, Progress& progress)
 {
   progress.step(0);
-  DumpFrame frame = empty_frame(plan);
+  Table frame = empty_frame(plan);
   const PackingRequest& request = plan.request;
   auto* const points = static_cast<double*>(frame.points.data());
   auto* const radii = array_of<double>(frame, "radius");

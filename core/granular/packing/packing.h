@@ -5,7 +5,7 @@
 #include "granular/common/progress.h"
 #include "granular/geometry/box.h"
 #include "granular/packing/radii.h"
-#include "granular/particles/dump_frame.h"
+#include "granular/particles/table.h"
 
 #include <cstdint>
 #include <optional>
@@ -59,9 +59,9 @@ class PackingPlan;
 /// Throws LimitError for impossible requests: values out of bounds, a box without room, random particles without a position or
 /// more than 10^7 of them;
 /// Cancelled; std::bad_alloc.
-DumpFrame make_packing(const PackingRequest& request, Progress& progress);
+Table make_packing(const PackingRequest& request, Progress& progress);
 
 /// Makes the piece of a plan. Every rank has the whole plan.
-DumpFrame make_packing(const PackingPlan& plan, Progress& progress);
+Table make_packing(const PackingPlan& plan, Progress& progress);
 }
 #endif

@@ -2,7 +2,7 @@
 #include "granular/paths/compare_particles.h"
 
 #include "granular/common/error.h"
-#include "granular/local/id_finder.h"
+#include "granular/lines/id_finder.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>

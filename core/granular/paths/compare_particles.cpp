@@ -2,8 +2,8 @@
 #include "granular/paths/compare_particles.h"
 
 #include "granular/common/error.h"
-#include "granular/local/fetch_particles.h"
-#include "granular/local/id_finder.h"
+#include "granular/lines/fetch_particles.h"
+#include "granular/lines/id_finder.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/unwrap.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/geometry/box.h"
-#include "granular/local/lines.h"
+#include "granular/lines/lines.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/paths.h"
 #include "granular/paths/unwrap.h"

@@ -3,7 +3,7 @@
 
 #include "granular/common/error.h"
 #include "granular/geometry/reproducible_sum.h"
-#include "granular/local/id_finder.h"
+#include "granular/lines/id_finder.h"
 #include "granular/parallel/trade.h"
 #include "granular/paths/statistics.h"
 

@@ -2,7 +2,7 @@
 #ifndef granular_paths_id_selection_h
 #define granular_paths_id_selection_h
 
-#include "granular/local/id_finder.h"
+#include "granular/lines/id_finder.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstddef>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/paths/path_frame.h"
 
-#include "granular/dump/read/dump_reader.h"
-#include "granular/local/fetch_particles.h"
-#include "granular/local/id_finder.h"
+#include "granular/formats/dump/read/dump_reader.h"
+#include "granular/lines/fetch_particles.h"
+#include "granular/lines/id_finder.h"
 #include "granular/parallel/trade.h"
 #include "granular/particles/absolute_positions.h"
-#include "granular/particles/dump_frame.h"
 #include "granular/particles/point_forms.h"
+#include "granular/particles/table.h"
 
 #include <algorithm>
 #include <array>
@@ -199,34 +199,34 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
 }
 
 PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
-  const DumpRequest& base, Notices& notices, Progress& progress, PathFrame spent)
+  const Request& base, Notices& notices, Progress& progress, PathFrame spent)
 {
-  DumpRequest wanted = base;
+  Request wanted = base;
   wanted.points = request.points;
   wanted.single_precision = false;
   wanted.point_origin = request.origin;
   wanted.ranges = false;
   wanted.sort_by_id = false;
   const bool images = request.points && base.coordinates == Coordinates::Absolute;
-  wanted.wanted = [&names = request.arrays, images](const ArrayInfo& array)
+  wanted.wanted = [&names = request.arrays, images](std::string_view name, bool)
   {
-    return array.name == "id" || (images && array.name == image_array) ||
-      std::ranges::find(names, array.name) != names.end();
+    return name == "id" || (images && name == image_array) ||
+      std::ranges::find(names, name) != names.end();
   };
   if (!request.selection.is_all())
   {
     wanted.keep_id = [&selection = request.selection](std::int64_t id)
     { return selection.holds(id); };
   }
-  const DumpFrame frame = read_dump(pieces, wanted, notices, progress);
+  const Table frame = read_dump(pieces, wanted, notices, progress);
   const bool lacks_ids = std::ranges::none_of(
-    frame.arrays, [](const DumpArray& array) { return array.info.name == "id"; });
+    frame.arrays, [](const TableArray& array) { return array.info.name == "id"; });
   if (frame.header.rows > 0 && frame.schema.find(ColumnRole::Id) < 0 &&
     (lacks_ids || frame.rows == 0))
   {
     throw FormatError("expected a column id: paths need ids", where_of(pieces.front()));
   }
-  for (const DumpArray& array : frame.arrays) // the view has none of them
+  for (const TableArray& array : frame.arrays) // the view has none of them
   {
     if (array.info.type == ValueType::Text &&
       std::ranges::find(request.arrays, array.info.name) != request.arrays.end())

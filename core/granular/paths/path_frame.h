@@ -5,7 +5,7 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/common/value_type.h"
-#include "granular/dump/read/dump_request.h"
+#include "granular/formats/dump/read/dump_part.h"
 #include "granular/frames/frame.h"
 #include "granular/frames/run_index.h"
 #include "granular/geometry/positions.h"
@@ -67,7 +67,7 @@ PathFrame pick_particles(const FrameView& frame, const PathRequest& request, std
 /// takes. base also has the form of the points (Absolute or Unwrapped), region, stride, threads and memory pool. Throws what
 /// read_dump and pick_particles throw.
 PathFrame read_particles(const std::vector<FramePiece>& pieces, const PathRequest& request,
-  const DumpRequest& base, Notices& notices, Progress& progress, PathFrame spent = {});
+  const Request& base, Notices& notices, Progress& progress, PathFrame spent = {});
 
 /// Returns the ids of the particles whose points are in a region.
 std::vector<std::int64_t> ids_in_region(const PathFrame& frame, Region region);

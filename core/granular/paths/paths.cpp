@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/paths/paths.h"
 
-#include "granular/local/id_finder.h"
-#include "granular/local/minimum_image.h"
+#include "granular/lines/id_finder.h"
+#include "granular/lines/minimum_image.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/path_frame.h"
 #include "granular/paths/unwrap.h"

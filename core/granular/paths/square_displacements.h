@@ -5,7 +5,7 @@
 #include "granular/common/error.h"
 #include "granular/geometry/box.h"
 #include "granular/geometry/reproducible_sum.h"
-#include "granular/local/id_finder.h"
+#include "granular/lines/id_finder.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/paths/path_frame.h"

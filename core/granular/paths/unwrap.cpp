@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/paths/unwrap.h"
 
-#include "granular/local/minimum_image.h"
+#include "granular/lines/minimum_image.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #define granular_paths_unwrap_h
 
 #include "granular/geometry/box.h"
-#include "granular/local/minimum_image.h"
+#include "granular/lines/minimum_image.h"
 #include "granular/paths/path_frame.h"
 
 #include <array>

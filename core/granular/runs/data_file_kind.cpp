@@ -2,12 +2,9 @@
 // Data files: particles and bonds.
 #include "granular/runs/kind.h"
 
-#include "granular/data_file/data_file.h"
-#include "granular/data_file/read_data.h"
-#include "granular/local/local_columns.h"
-
-#include <string_view>
-#include <utility>
+#include "granular/formats/data_file/data_file.h"
+#include "granular/formats/data_file/read_data.h"
+#include "granular/lines/line_columns.h"
 
 namespace granular
 {
@@ -27,27 +24,12 @@ Offer offer_data(const RunPlace& place, Progress& progress)
   return offer;
 }
 
-RunFrame read_data_frame(const RunPlace& place, const Request& request, const Offer&,
+Tables read_data_frame(const RunPlace& place, const Request& request, const Offer&,
   Communicator& ranks, Notices& notices, Progress& progress)
 {
-  DataRequest asked;
-  asked.particles = dump_request(request);
-  asked.particles.single_precision = false;
-  asked.particles.points = true; // bonds end there
-  asked.atom_style = place.options.atom_style;
-  asked.boundary = place.options.boundary;
-  asked.periodic_lines = request.periodic_lines;
-  asked.wanted_bonds = [&request](std::string_view name)
-  { return request.bonds && is_wanted(request.wanted_bonds, name, true); };
-  DataFrame read = read_data(place.index.first_piece(place.frame), asked, ranks, notices, progress);
-  RunFrame frame;
-  frame.rows.table = std::move(read.particles);
-  frame.bonds = std::move(read.bonds);
-  if (!request.points)
-  {
-    frame.rows.table.points = {};
-  }
-  return frame;
+  const DataOptions options = { place.options.atom_style, place.options.boundary };
+  return read_data(
+    place.index.first_piece(place.frame), options, request, ranks, notices, progress);
 }
 }
 

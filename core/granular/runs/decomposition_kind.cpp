@@ -2,7 +2,7 @@
 // Subdomains of ranks.
 #include "granular/runs/kind.h"
 
-#include "granular/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/decomposition_file.h"
 
 #include <string>
 #include <string_view>
@@ -43,21 +43,21 @@ Offer offer_subdomains(const RunPlace& place, Progress& progress)
   return offer;
 }
 
-RunFrame read_subdomains(const RunPlace& place, const Request& request, const Offer&, Communicator&,
+Tables read_subdomains(const RunPlace& place, const Request& request, const Offer&, Communicator&,
   Notices& notices, Progress& progress)
 {
   const std::vector<FramePiece> pieces = place.index.pieces(place.frame);
   const Decomposition all = read_decomposition_pieces(pieces, notices, progress);
   const Subdomain bounds = bounds_of(all.subdomains);
-  RunFrame frame;
-  DumpFrame& table = frame.rows.table;
+  Tables frame;
+  Table& table = frame.rows;
   table.header.timestep = pieces.front().entry.timestep;
   table.header.box = Box::from_bounds(bounds.lo, bounds.hi);
   table.header.box.boundary = "ff ff ff";
   table.rows = static_cast<std::int64_t>(all.subdomains.size());
   const auto add = [&](const KnownColumn& known, const auto& value_of)
   {
-    if (!has_array(all, known.name) || !is_wanted(request.wanted, known.name, true))
+    if (!has_array(all, known.name) || !is_wanted(request.wanted, known.name))
     {
       return;
     }

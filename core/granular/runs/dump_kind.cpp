@@ -2,8 +2,8 @@
 // Dumps: particles.
 #include "granular/runs/kind.h"
 
-#include "granular/dump/formats/dump_files.h"
-#include "granular/dump/read/dump_reader.h"
+#include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/formats/dump/read/dump_reader.h"
 
 namespace granular
 {
@@ -17,13 +17,10 @@ Offer offer_dump(const RunPlace& place, Progress&)
   return offer;
 }
 
-RunFrame read_dump_frame(const RunPlace& place, const Request& request, const Offer&,
+Tables read_dump_frame(const RunPlace& place, const Request& request, const Offer&,
   Communicator& ranks, Notices& notices, Progress& progress)
 {
-  RunFrame frame;
-  frame.rows.table =
-    read_dump(place.index.pieces(place.frame), dump_request(request), ranks, notices, progress);
-  return frame;
+  return { .rows = read_dump(place.index.pieces(place.frame), request, ranks, notices, progress) };
 }
 }
 

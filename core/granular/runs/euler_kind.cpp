@@ -2,7 +2,7 @@
 // Averaged cells.
 #include "granular/runs/kind.h"
 
-#include "granular/euler/euler_file.h"
+#include "granular/formats/euler/euler_file.h"
 
 #include <algorithm>
 #include <string>
@@ -59,18 +59,17 @@ std::vector<std::size_t> first_with_rows(const RunIndex& index)
   return { frame };
 }
 
-RunFrame read_cells(const RunPlace& place, const Request& request, const Offer&, Communicator&,
+Tables read_cells(const RunPlace& place, const Request& request, const Offer&, Communicator&,
   Notices& notices, Progress& progress)
 {
-  const auto wanted = [&request](std::string_view name)
-  { return is_wanted(request.wanted, name, true); };
+  const auto wanted = [&request](std::string_view name) { return is_wanted(request.wanted, name); };
   EulerFrame cells = read_euler_pieces(place.index.pieces(place.frame), wanted, notices, progress);
   for (std::size_t i = 0; i < cells.centres.size(); ++i)
   {
     cells.centres[i] -= request.point_origin[i % 3];
   }
-  RunFrame frame;
-  DumpFrame& table = frame.rows.table;
+  Tables frame;
+  Table& table = frame.rows;
   table.header.timestep = place.index.first_piece(place.frame).entry.timestep;
   table.header.has_box = false;
   table.rows = cells.cells;

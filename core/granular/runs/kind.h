@@ -5,13 +5,14 @@
 #include "granular/columns/column.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
-#include "granular/dump/read/dump_request.h"
 #include "granular/frames/file_format.h"
 #include "granular/frames/run_index.h"
 #include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
-#include "granular/runs/request.h"
-#include "granular/runs/table.h"
+#include "granular/particles/request.h"
+#include "granular/particles/table.h"
+#include "granular/runs/offer.h"
+#include "granular/runs/run_options.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -50,7 +51,7 @@ struct Kind
   Offer (*offer)(const RunPlace& place, Progress& progress);
 
   /// Reads a frame. `offer` is needed for local data alone. Collective.
-  RunFrame (*read)(const RunPlace& place, const Request& request, const Offer& offer,
+  Tables (*read)(const RunPlace& place, const Request& request, const Offer& offer,
     Communicator& ranks, Notices& notices, Progress& progress);
 };
 
@@ -79,12 +80,6 @@ const KnownColumn* find_known(std::string_view array, std::span<const KnownColum
 /// Returns the arrays that columns make; the table knows their units.
 std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const KnownColumn> table);
 
-/// Returns true if a request wants an array.
-bool is_wanted(const Request::Choice& choice, std::string_view name, bool is_usual);
-
-DumpRequest dump_request(const Request& request);
-LineRequest line_request(const Request& request);
-
 /// Returns values in memory that can be given away.
 template <class Value>
 Block block_of(const std::vector<Value>& values)
@@ -95,7 +90,6 @@ Block block_of(const std::vector<Value>& values)
 }
 
 /// Adds an array that no columns of a file make.
-void add_array(
-  DumpFrame& frame, std::string_view name, ValueType type, int components, Block block);
+void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block);
 }
 #endif

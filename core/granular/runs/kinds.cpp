@@ -58,37 +58,7 @@ std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const 
   return arrays;
 }
 
-bool is_wanted(const Request::Choice& choice, std::string_view name, bool is_usual)
-{
-  return choice ? choice(name, is_usual) : is_usual;
-}
-
-DumpRequest dump_request(const Request& request)
-{
-  DumpRequest made;
-  made.coordinates = request.coordinates;
-  made.points = request.points;
-  made.single_precision = request.single_precision;
-  made.point_origin = request.point_origin;
-  made.sort_by_id = request.sort_by_id;
-  made.stride = request.stride;
-  made.region = request.region;
-  made.wanted = [choice = request.wanted](const ArrayInfo& array)
-  { return is_wanted(choice, array.name, !array.position_form); };
-  made.ranges = request.ranges;
-  made.piece = request.piece;
-  made.pieces = request.pieces;
-  made.threads = request.threads;
-  made.pool = request.pool;
-  return made;
-}
-
-LineRequest line_request(const Request& request)
-{
-  return { request.periodic_lines, request.point_origin, request.threads, request.pool };
-}
-
-void add_array(DumpFrame& frame, std::string_view name, ValueType type, int components, Block block)
+void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block)
 {
   const std::vector<int> no_columns(static_cast<std::size_t>(components), -1);
   ArrayInfo info{ .name = std::string(name), .type = type, .columns = no_columns };

@@ -3,9 +3,9 @@
 #include "granular/runs/kind.h"
 
 #include "granular/common/words.h"
-#include "granular/local/local_columns.h"
-#include "granular/local/local_file.h"
-#include "granular/local/local_reader.h"
+#include "granular/formats/local/local_file.h"
+#include "granular/formats/local/local_reader.h"
+#include "granular/lines/line_columns.h"
 
 #include <algorithm>
 #include <string>
@@ -72,16 +72,11 @@ Offer offer_local(const RunPlace& place, Progress& progress)
   return offer;
 }
 
-RunFrame read_local_frame(const RunPlace& place, const Request& request, const Offer& offer,
+Tables read_local_frame(const RunPlace& place, const Request& request, const Offer& offer,
   Communicator& ranks, Notices& notices, Progress& progress)
 {
-  const auto wanted = [&request](std::string_view name)
-  { return is_wanted(request.wanted, name, !is_end_array(name)); };
-  RunFrame frame;
-  frame.rows = read_local(place.index.pieces(place.frame),
-    { offer.columns, wanted, line_request(request), request.piece, request.pieces }, ranks, notices,
-    progress);
-  return frame;
+  return { .rows = read_local(
+             place.index.pieces(place.frame), offer.columns, request, ranks, notices, progress) };
 }
 }
 

@@ -2,13 +2,11 @@
 // Restart files: particles and bonds.
 #include "granular/runs/kind.h"
 
-#include "granular/local/local_columns.h"
-#include "granular/restart/restart_file.h"
-#include "granular/restart/restart_reader.h"
+#include "granular/formats/restart/restart_file.h"
+#include "granular/formats/restart/restart_reader.h"
+#include "granular/lines/line_columns.h"
 
 #include <memory>
-#include <string_view>
-#include <utility>
 
 namespace granular
 {
@@ -45,22 +43,15 @@ Offer offer_restart(const RunPlace& place, Progress& progress)
   return offer;
 }
 
-RunFrame read_restart_frame(const RunPlace& place, const Request& request, const Offer&,
+Tables read_restart_frame(const RunPlace& place, const Request& request, const Offer&,
   Communicator&, Notices& notices, Progress& progress)
 {
   PartialProgress part(progress);
   part.set_part(0, 0.1);
   const OpenRestart file(place, notices, part);
   part.set_part(0.1, 1);
-  const auto names_of = [](const Request::Choice& choice)
-  { return [&choice](std::string_view name) { return is_wanted(choice, name, true); }; };
-  RestartFrame read = read_restart(*file.source, *file.layout,
-    { names_of(request.wanted), names_of(request.wanted_bonds), request.bonds,
-      place.options.history_layout, line_request(request), request.piece, request.pieces },
-    notices, part);
-  RunFrame frame;
-  frame.rows.table = std::move(read.particles);
-  frame.bonds = std::move(read.bonds);
+  Tables frame =
+    read_restart(*file.source, *file.layout, place.options.history_layout, request, notices, part);
   frame.groups = file.layout->groups;
   return frame;
 }

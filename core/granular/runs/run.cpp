@@ -120,8 +120,8 @@ std::vector<OfferedArray> Run::arrays(std::size_t table) const
   return all;
 }
 
-RunFrame Run::read(std::size_t frame, const Request& request, const Offer& offer,
-  Communicator& ranks, Notices& notices, Progress& progress) const
+Tables Run::read(std::size_t frame, const Request& request, const Offer& offer, Communicator& ranks,
+  Notices& notices, Progress& progress) const
 {
   if (!offer.error.empty())
   {

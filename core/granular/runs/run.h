@@ -6,8 +6,8 @@
 #include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
 #include "granular/runs/kind.h"
-#include "granular/runs/request.h"
-#include "granular/runs/table.h"
+#include "granular/runs/offer.h"
+#include "granular/runs/run_options.h"
 
 #include <cstddef>
 #include <map>
@@ -53,7 +53,7 @@ public:
   std::vector<OfferedArray> arrays(std::size_t table) const;
 
   /// Reads a frame, with what offer() or known_offer() returns for it. Collective. Throws Error; Cancelled.
-  RunFrame read(std::size_t frame, const Request& request, const Offer& offer, Communicator& ranks,
+  Tables read(std::size_t frame, const Request& request, const Offer& offer, Communicator& ranks,
     Notices& notices, Progress& progress) const;
 
 private:

@@ -21,16 +21,16 @@ namespace granular
 {
 namespace
 {
-const std::int64_t* find_ids(const DumpFrame& frame, const Block& ids) noexcept
+const std::int64_t* find_ids(const Table& frame, const Block& ids) noexcept
 {
   const auto found = std::ranges::find_if(frame.arrays,
-    [](const DumpArray& array)
+    [](const TableArray& array)
     { return array.info.role == ColumnRole::Id && array.info.type == ValueType::Int64; });
   return static_cast<const std::int64_t*>(
     found == frame.arrays.end() ? ids.data() : found->block.data());
 }
 
-std::size_t row_width(const DumpArray& array) noexcept
+std::size_t row_width(const TableArray& array) noexcept
 {
   return size_of(array.info.type) * array.info.columns.size();
 }
@@ -43,13 +43,13 @@ void note_no_ids(Notices& notices, const Where& where)
 
 /// Calls call(block, width) for all that has a value a row.
 template <class Call>
-void for_each_block(DumpFrame& frame, const Call& call)
+void for_each_block(Table& frame, const Call& call)
 {
   if (frame.rows > 0)
   {
     call(frame.points, frame.points.bytes() / static_cast<std::size_t>(frame.rows));
   }
-  for (DumpArray& array : frame.arrays)
+  for (TableArray& array : frame.arrays)
   {
     call(array.block, row_width(array));
   }
@@ -64,10 +64,10 @@ struct Survey
 };
 
 /// The arrays: what must be the same on all ranks.
-std::string shape_of(const DumpFrame& frame)
+std::string shape_of(const Table& frame)
 {
   std::string shape;
-  for (const DumpArray& array : frame.arrays)
+  for (const TableArray& array : frame.arrays)
   {
     shape += array.info.name + ' ' + std::to_string(static_cast<int>(array.info.type)) + ' ' +
       std::to_string(array.info.components()) + '\n';
@@ -75,7 +75,7 @@ std::string shape_of(const DumpFrame& frame)
   return shape;
 }
 
-Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
+Survey survey(const Table& frame, bool has_ids, Communicator& ranks)
 {
   const std::vector<std::string> shapes = ranks.all_gather(shape_of(frame));
   if (std::ranges::any_of(shapes, [&](const std::string& one) { return one != shapes.front(); }))
@@ -98,7 +98,7 @@ Survey survey(const DumpFrame& frame, bool has_ids, Communicator& ranks)
 }
 
 /// Gives a column of texts the words of all ranks, in the order in which they first occur.
-void join_words(DumpArray& array, Communicator& ranks, std::int64_t rows, const Where& where)
+void join_words(TableArray& array, Communicator& ranks, std::int64_t rows, const Where& where)
 {
   TextDictionary words;
   for (const std::vector<std::string>& of_rank : gather(ranks, array.words))
@@ -165,7 +165,7 @@ std::vector<std::int64_t> count_parts(
 }
 
 /// Collective.
-void sort_together(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
+void sort_together(Table& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor)
 {
   const std::int64_t* const numbers = find_ids(frame, ids);
@@ -179,7 +179,7 @@ void sort_together(DumpFrame& frame, const Block& ids, Communicator& ranks, Noti
   {
     return;
   }
-  for (DumpArray& array : frame.arrays)
+  for (TableArray& array : frame.arrays)
   {
     if (array.info.type == ValueType::Text)
     {
@@ -212,15 +212,15 @@ void sort_together(DumpFrame& frame, const Block& ids, Communicator& ranks, Noti
     arrive.apply(block, width, executor);
   };
   move_rows(frame.points, all.point_width);
-  for (DumpArray& array : frame.arrays)
+  for (TableArray& array : frame.arrays)
   {
     move_rows(array.block, row_width(array));
   }
 }
 }
 
-void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where,
-  const Executor& executor)
+void sort_by_id(
+  Table& frame, const Block& ids, Notices& notices, const Where& where, const Executor& executor)
 {
   const std::int64_t* const numbers = find_ids(frame, ids);
   if (!numbers)
@@ -233,7 +233,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Wher
     frame, [&](Block& block, std::size_t width) { order.apply(block, width, executor); });
 }
 
-void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
+void sort_by_id(Table& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor)
 {
   if (ranks.size() == 1)
@@ -244,7 +244,7 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices
   do_together(ranks, [&] { sort_together(frame, ids, ranks, notices, where, executor); });
 }
 
-void keep_rows(DumpFrame& frame, std::int64_t first, std::int64_t count)
+void keep_rows(Table& frame, std::int64_t first, std::int64_t count)
 {
   for_each_block(frame,
     [&](Block& block, std::size_t width)

@@ -5,7 +5,7 @@
 #include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
-#include "granular/particles/dump_frame.h"
+#include "granular/particles/table.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ private:
 
 /// Sorts the rows of a frame by id; rows with the same id keep their order. ids holds frame.rows ids, or is empty if
 /// the frame has an array with the role Id. Without either, the order is unchanged and a notice says so.
-void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Where& where,
+void sort_by_id(Table& frame, const Block& ids, Notices& notices, const Where& where,
   const Executor& executor = Executor());
 
 /// Sorts the rows of all ranks by id, and those with the same id by rank and then by their order. Rank r of n keeps
@@ -37,10 +37,10 @@ void sort_by_id(DumpFrame& frame, const Block& ids, Notices& notices, const Wher
 /// same arrays, also ranks without rows; texts get the words of all ranks. Without ids nothing moves, and each rank
 /// gets the notice. Throws on all ranks (see agree); the frame is lost then. Needs memory for one more copy of the
 /// largest block and about 40 bytes per row. Collective.
-void sort_by_id(DumpFrame& frame, const Block& ids, Communicator& ranks, Notices& notices,
+void sort_by_id(Table& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor = Executor());
 
 /// Keeps `count` rows from `first` on and removes the others.
-void keep_rows(DumpFrame& frame, std::int64_t first, std::int64_t count);
+void keep_rows(Table& frame, std::int64_t first, std::int64_t count);
 }
 #endif

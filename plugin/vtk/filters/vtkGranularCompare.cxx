@@ -8,9 +8,9 @@
 #include "private/request/guard.h"
 #include "private/request/request_task.h"
 
-#include "granular/euler/particle_loader.h"
+#include "granular/averages/particle_loader.h"
 #include "granular/grid/sphere_box.h"
-#include "granular/local/fetch_particles.h"
+#include "granular/lines/fetch_particles.h"
 #include "granular/numbers/number_print.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/compare_particles.h"

@@ -6,8 +6,8 @@
 #include "private/dump/dump_input.h"
 #include "private/request/request_task.h"
 
-#include "granular/decomposition/count_particles.h"
-#include "granular/decomposition/process_grid.h"
+#include "granular/grid/process_grid.h"
+#include "granular/subdomains/count_particles.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"

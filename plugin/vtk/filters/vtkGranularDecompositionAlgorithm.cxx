@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionAlgorithm.h"
 
-#include "granular/decomposition/process_grid.h"
+#include "granular/grid/process_grid.h"
 
 #include "vtkUnstructuredGrid.h"
 

@@ -9,9 +9,9 @@
 #include "private/request/processes.h"
 #include "private/request/request_task.h"
 
-#include "granular/contacts/contact_cells.h"
-#include "granular/euler/average.h"
-#include "granular/euler/time_average.h"
+#include "granular/averages/average.h"
+#include "granular/averages/contact_cells.h"
+#include "granular/averages/time_average.h"
 #include "granular/numbers/number_print.h"
 
 #include "vtkDataObjectTypes.h"

@@ -7,8 +7,8 @@
 #include "private/local/local_rows.h"
 #include "private/request/request_task.h"
 
-#include "granular/local/join.h"
-#include "granular/local/lines.h"
+#include "granular/lines/join.h"
+#include "granular/lines/lines.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/trade.h"
 #include "granular/particles/frame_view.h"
@@ -169,11 +169,11 @@ private:
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
     const bool unwrapped = view.coordinates == granular::Coordinates::Unwrapped;
     const granular::Box box = view.has_box ? view.header.box : granular::Box{};
-    granular::LineRequest request;
-    request.periodic = static_cast<granular::PeriodicLines>(this->Self->PeriodicLines);
+    granular::Request request;
+    request.periodic_lines = static_cast<granular::PeriodicLines>(this->Self->PeriodicLines);
     if (unwrapped && this->Self->PeriodicLines == SPLIT)
     {
-      request.periodic = granular::PeriodicLines::MinimumImage;
+      request.periodic_lines = granular::PeriodicLines::MinimumImage;
     }
     request.point_origin = scaled ? granular::Vector3{} : view.point_origin;
     request.threads = this->Threads;

@@ -3,7 +3,7 @@
 
 #include "private/readers/series_reader.h"
 
-#include "granular/data_file/data_file.h"
+#include "granular/formats/data_file/data_file.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"

@@ -4,7 +4,7 @@
 #include "private/decomposition/voxels.h"
 #include "private/readers/series_reader.h"
 
-#include "granular/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/decomposition_file.h"
 
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"

@@ -4,7 +4,7 @@
 #include "private/dump/input_frames.h"
 #include "private/readers/series_reader.h"
 
-#include "granular/dump/formats/dump_files.h"
+#include "granular/formats/dump/grammar/dump_files.h"
 
 #include "vtkObjectFactory.h"
 
@@ -58,7 +58,7 @@ std::optional<ReaderFrames> ReaderFrames::Find(vtkAlgorithm* consumer)
   {
     return {};
   }
-  granular::DumpRequest request = granular::dump_request(reader->Series->MakeRequest());
+  granular::Request request = reader->Series->MakeRequest();
   request.ranges = false; // filters need none
   return ReaderFrames{ &reader->Series->Run.index(), std::move(request) };
 }

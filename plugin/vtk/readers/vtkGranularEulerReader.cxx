@@ -5,8 +5,8 @@
 #include "private/readers/series_reader.h"
 #include "private/request/guard.h"
 
-#include "granular/euler/euler_file.h"
-#include "granular/euler/regular_grids.h"
+#include "granular/formats/euler/euler_file.h"
+#include "granular/formats/euler/regular_grids.h"
 
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"

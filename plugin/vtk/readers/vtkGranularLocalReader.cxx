@@ -3,7 +3,8 @@
 
 #include "private/readers/series_reader.h"
 
-#include "granular/local/local_file.h"
+#include "granular/formats/local/local_file.h"
+#include "granular/formats/local/local_presets.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"

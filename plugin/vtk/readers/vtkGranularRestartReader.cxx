@@ -3,8 +3,8 @@
 
 #include "private/readers/series_reader.h"
 
-#include "granular/restart/restart_file.h"
-#include "granular/restart/restart_reader.h"
+#include "granular/formats/restart/restart_file.h"
+#include "granular/formats/restart/restart_reader.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"

@@ -5,7 +5,7 @@
 #include "private/dump/dump_output.h"
 #include "private/request/request_task.h"
 
-#include "granular/decomposition/process_grid.h"
+#include "granular/grid/process_grid.h"
 
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"

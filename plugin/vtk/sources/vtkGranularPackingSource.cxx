@@ -72,7 +72,7 @@ granular::RadiusChoice::Kind KindOf(int value)
 vtkSmartPointer<vtkAbstractArray> TakeValues(
   const char* name, granular::ValueType type, granular::Block& block, vtkIdType bonds)
 {
-  granular::DumpArray array;
+  granular::TableArray array;
   array.info.name = name;
   array.info.type = type;
   array.info.columns = { 0 };
@@ -183,7 +183,7 @@ private:
   {
     const bool bonded = this->Self->BondFactor != 0;
     this->Progress.set_part(0.6, bonded ? 0.8 : 1);
-    granular::DumpFrame frame = granular::make_packing(plan, this->Progress);
+    granular::Table frame = granular::make_packing(plan, this->Progress);
     if (bonded)
     {
       this->Progress.set_part(0.8, 1);

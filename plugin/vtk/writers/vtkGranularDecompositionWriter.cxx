@@ -5,7 +5,7 @@
 #include "private/request/guard.h"
 #include "private/writing/writer.h"
 
-#include "granular/decomposition/decomposition_text.h"
+#include "granular/formats/decomposition/decomposition_text.h"
 #include "granular/writing/file_names.h"
 
 #include "vtkObjectFactory.h"

@@ -6,8 +6,8 @@
 #include "private/writing/writer.h"
 
 #include "granular/common/error.h"
-#include "granular/euler/cells.h"
-#include "granular/euler/euler_text.h"
+#include "granular/formats/euler/euler_text.h"
+#include "granular/grid/cells.h"
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/trade.h"
 #include "granular/writing/file_names.h"

@@ -8,8 +8,8 @@
 #include "private/writing/writer.h"
 
 #include "granular/common/error.h"
-#include "granular/local/local_columns.h"
-#include "granular/local/local_reader.h"
+#include "granular/formats/local/local_reader.h"
+#include "granular/lines/line_columns.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -4,8 +4,8 @@
 
 #include "granular/columns/column.h"
 #include "granular/common/error.h"
-#include "granular/runs/request.h"
-#include "granular/runs/table.h"
+#include "granular/runs/offer.h"
+#include "granular/runs/run_options.h"
 
 #include "vtkNew.h"
 

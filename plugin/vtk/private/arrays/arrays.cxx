@@ -182,7 +182,7 @@ vtkSmartPointer<Array> TakeBlock(granular::Block& block, vtkIdType tuples, int c
   return array;
 }
 
-vtkSmartPointer<vtkAbstractArray> TakeTexts(const granular::DumpArray& texts, vtkIdType rows)
+vtkSmartPointer<vtkAbstractArray> TakeTexts(const granular::TableArray& texts, vtkIdType rows)
 {
   auto array = vtkSmartPointer<vtkStringArray>::New();
   array->SetNumberOfValues(rows);
@@ -273,7 +273,7 @@ void SetRange(vtkDataArray* array, const granular::ValueRange& range)
   }
 }
 
-vtkSmartPointer<vtkAbstractArray> TakeValues(granular::DumpArray& array, vtkIdType rows)
+vtkSmartPointer<vtkAbstractArray> TakeValues(granular::TableArray& array, vtkIdType rows)
 {
   const int components = array.info.components();
   switch (array.info.type)
@@ -289,7 +289,7 @@ vtkSmartPointer<vtkAbstractArray> TakeValues(granular::DumpArray& array, vtkIdTy
   }
 }
 
-void Describe(vtkAbstractArray* taken, const granular::DumpArray& array,
+void Describe(vtkAbstractArray* taken, const granular::TableArray& array,
   const std::vector<granular::ColumnInfo>& columns)
 {
   taken->SetName(array.info.name.c_str());
@@ -345,14 +345,14 @@ std::size_t PoolLimit(granular::Notices& notices)
 }
 
 vtkSmartPointer<vtkAbstractArray> TakeArray(
-  granular::DumpArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns)
+  granular::TableArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns)
 {
   const auto taken = TakeValues(array, rows);
   Describe(taken, array, columns);
   return taken;
 }
 
-void AddTaken(vtkFieldData* data, granular::DumpArray& array, vtkIdType rows,
+void AddTaken(vtkFieldData* data, granular::TableArray& array, vtkIdType rows,
   const std::vector<granular::ColumnInfo>& columns)
 {
   const auto taken = TakeValues(array, rows);

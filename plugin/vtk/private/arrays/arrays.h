@@ -4,7 +4,7 @@
 
 #include "granular/columns/column.h"
 #include "granular/common/error.h"
-#include "granular/dump/read/dump_reader.h"
+#include "granular/formats/dump/read/dump_reader.h"
 #include "granular/memory/block.h"
 #include "granular/memory/block_pool.h"
 
@@ -33,13 +33,13 @@ namespace vtkGranularPrivate
  * that have no axis: c_ID[1] and so on.
  */
 vtkSmartPointer<vtkAbstractArray> TakeArray(
-  granular::DumpArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns);
+  granular::TableArray& array, vtkIdType rows, const std::vector<granular::ColumnInfo>& columns);
 
 /**
  * Adds such an array, whose name must be unique. VTK compares the name of an added array with all others, which takes
  * long for many arrays; therefore the array gets its name afterwards.
  */
-void AddTaken(vtkFieldData* data, granular::DumpArray& array, vtkIdType rows,
+void AddTaken(vtkFieldData* data, granular::TableArray& array, vtkIdType rows,
   const std::vector<granular::ColumnInfo>& columns);
 
 /**

@@ -4,8 +4,8 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
 
-#include "granular/decomposition/decomposition_file.h"
-#include "granular/decomposition/voxels.h"
+#include "granular/formats/decomposition/decomposition_file.h"
+#include "granular/formats/decomposition/voxels.h"
 #include "granular/parallel/executor.h"
 
 #include "vtkCellArray.h"

@@ -4,8 +4,8 @@
 
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
-#include "granular/decomposition/subdomains.h"
 #include "granular/geometry/box.h"
+#include "granular/grid/subdomains.h"
 
 class vtkUnstructuredGrid;
 

@@ -73,7 +73,7 @@ void FillBoxData(vtkFieldData* data, const granular::Box& box)
 }
 }
 
-void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
+void FillParticles(vtkPolyData* output, granular::Table& frame, bool singlePrecision,
   VertexCells cells, VertexCache& cache, const std::shared_ptr<granular::BlockPool>& pool)
 {
   const auto rows = static_cast<vtkIdType>(frame.rows);
@@ -84,7 +84,7 @@ void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singleP
   }
   vtkPointData* data = output->GetPointData();
   data->AllocateArrays(static_cast<int>(frame.arrays.size()));
-  for (granular::DumpArray& from : frame.arrays)
+  for (granular::TableArray& from : frame.arrays)
   {
     if (from.info.role == granular::ColumnRole::Id)
     {
@@ -197,7 +197,7 @@ std::string FindLeftOut(vtkFieldData* data)
 }
 
 void FillFieldData(
-  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin)
+  vtkFieldData* data, const granular::Table& frame, const granular::Vector3& pointOrigin)
 {
   FillHeader(data, frame.header, frame.coordinates, pointOrigin);
   const granular::ShapeSizes sizes =

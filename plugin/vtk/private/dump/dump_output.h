@@ -2,8 +2,8 @@
 #ifndef vtkGranularDumpOutput_h
 #define vtkGranularDumpOutput_h
 
-#include "granular/dump/read/dump_reader.h"
-#include "granular/runs/request.h"
+#include "granular/formats/dump/read/dump_reader.h"
+#include "granular/runs/run_options.h"
 
 #include <memory>
 #include <string>
@@ -31,7 +31,7 @@ enum class VertexCells
  * Fills the output with the particles of a frame: points, vertices and point data. Takes over the memory of the frame,
  * and reuses the vertices of the frame before if they are equal.
  */
-void FillParticles(vtkPolyData* output, granular::DumpFrame& frame, bool singlePrecision,
+void FillParticles(vtkPolyData* output, granular::Table& frame, bool singlePrecision,
   VertexCells cells, VertexCache& cache, const std::shared_ptr<granular::BlockPool>& pool);
 
 /**
@@ -58,7 +58,7 @@ std::string FindLeftOut(vtkFieldData* data); ///< in words: "Stride 10, RegionOf
  * Adds what FillHeader adds, and the columns.
  */
 void FillFieldData(
-  vtkFieldData* data, const granular::DumpFrame& frame, const granular::Vector3& pointOrigin);
+  vtkFieldData* data, const granular::Table& frame, const granular::Vector3& pointOrigin);
 }
 
 #endif

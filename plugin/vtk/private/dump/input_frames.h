@@ -3,7 +3,7 @@
 #define vtkGranularInputFrames_h
 
 #include "granular/common/error.h"
-#include "granular/dump/read/dump_request.h"
+#include "granular/formats/dump/read/dump_part.h"
 #include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
 
@@ -96,7 +96,7 @@ void CheckTimes(const std::vector<double>& times, granular::Communicator& ranks)
 struct ReaderFrames
 {
   const granular::RunIndex* Index = nullptr; ///< one frame for each time of the reader
-  granular::DumpRequest Request;             ///< what the reader shows
+  granular::Request Request;                 ///< what the reader shows
 
   /**
    * Returns the frames of an algorithm's input, if that is the particles of a dump reader that has looked at its files. What

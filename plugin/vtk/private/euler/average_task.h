@@ -9,11 +9,11 @@
 #include "private/dump/dump_input.h"
 #include "private/request/request_task.h"
 
+#include "granular/averages/particle_loader.h"
+#include "granular/averages/smooth_cells.h"
 #include "granular/contacts/find_ends.h"
-#include "granular/euler/cells.h"
-#include "granular/euler/euler_file.h"
-#include "granular/euler/particle_loader.h"
-#include "granular/kernels/smooth_cells.h"
+#include "granular/formats/euler/euler_file.h"
+#include "granular/grid/cells.h"
 #include "granular/parallel/executor.h"
 
 #include <array>

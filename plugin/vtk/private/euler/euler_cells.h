@@ -2,9 +2,9 @@
 #ifndef vtkGranularEulerCells_h
 #define vtkGranularEulerCells_h
 
-#include "granular/euler/cells.h"
-#include "granular/euler/euler_file.h"
+#include "granular/formats/euler/euler_file.h"
 #include "granular/geometry/box.h"
+#include "granular/grid/cells.h"
 #include "granular/grid/euler_grid.h"
 
 #include "vtkType.h"

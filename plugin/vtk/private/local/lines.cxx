@@ -23,21 +23,21 @@
 
 namespace vtkGranularPrivate
 {
-void FillRows(vtkTable* rows, granular::LocalFrame& frame)
+void FillRows(vtkTable* rows, granular::Table& frame)
 {
-  const auto count = static_cast<vtkIdType>(frame.table.rows);
+  const auto count = static_cast<vtkIdType>(frame.rows);
   vtkDataSetAttributes* data = rows->GetRowData();
-  data->AllocateArrays(static_cast<int>(frame.table.arrays.size()));
-  for (granular::DumpArray& from : frame.table.arrays)
+  data->AllocateArrays(static_cast<int>(frame.arrays.size()));
+  for (granular::TableArray& from : frame.arrays)
   {
-    AddTaken(data, from, count, frame.table.schema.columns());
+    AddTaken(data, from, count, frame.schema.columns());
   }
 }
 
-void FillLines(vtkPolyData* output, vtkTable* rows, granular::LocalFrame& frame,
-  const granular::LineRequest& request, const granular::Where& where, granular::Notices& notices)
+void FillLines(vtkPolyData* output, vtkTable* rows, granular::Table& frame,
+  const granular::Request& request, const granular::Where& where, granular::Notices& notices)
 {
-  const bool split = request.periodic == granular::PeriodicLines::Split;
+  const bool split = request.periodic_lines == granular::PeriodicLines::Split;
   AddRows(output, rows, frame.lines, split, where, notices);
   if (split)
   {

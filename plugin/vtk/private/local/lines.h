@@ -3,7 +3,7 @@
 #define vtkGranularLines_h
 
 #include "granular/common/error.h"
-#include "granular/local/local_reader.h"
+#include "granular/formats/local/local_reader.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -28,13 +28,13 @@ constexpr const char* PartArray = "part";
 /**
  * Fills the table with the rows of a frame of local data. Takes over their memory.
  */
-void FillRows(vtkTable* rows, granular::LocalFrame& frame);
+void FillRows(vtkTable* rows, granular::Table& frame);
 
 /**
  * Fills the output with the lines of a frame and the values of its rows. Takes over their memory.
  */
-void FillLines(vtkPolyData* output, vtkTable* rows, granular::LocalFrame& frame,
-  const granular::LineRequest& request, const granular::Where& where, granular::Notices& notices);
+void FillLines(vtkPolyData* output, vtkTable* rows, granular::Table& frame,
+  const granular::Request& request, const granular::Where& where, granular::Notices& notices);
 
 /**
  * Fills the output with lines, two points each, and the cell array `length`. Takes over the memory of the lines.

@@ -5,7 +5,7 @@
 #include "private/local/lines.h"
 
 #include "granular/common/error.h"
-#include "granular/local/fetch_particles.h"
+#include "granular/lines/fetch_particles.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
 

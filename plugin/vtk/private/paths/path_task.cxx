@@ -26,8 +26,7 @@ namespace
  */
 constexpr std::size_t PoolBytes = std::size_t{ 1 } << 30;
 
-granular::Coordinates FormOf(
-  const granular::DumpRequest& shown, const granular::PathRequest& request)
+granular::Coordinates FormOf(const granular::Request& shown, const granular::PathRequest& request)
 {
   return shown.coordinates == granular::Coordinates::Unwrapped && !request.absolute
     ? granular::Coordinates::Unwrapped
@@ -92,7 +91,7 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
       own.push_back(i);
     }
   }
-  granular::DumpRequest base = this->Reader->Request;
+  granular::Request base = this->Reader->Request;
   base.coordinates = FormOf(base, request);
   base.threads = std::max(1, this->Threads / std::max(1, static_cast<int>(own.size())));
   std::vector<granular::Notices> said(own.size());
@@ -124,7 +123,7 @@ granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::Pat
   {
     return this->Request(number, request, progress);
   }
-  granular::DumpRequest base = this->Reader->Request;
+  granular::Request base = this->Reader->Request;
   base.coordinates = FormOf(base, request);
   base.threads = this->Threads;
   base.piece = this->Group.rank();
@@ -163,7 +162,7 @@ void PathFrames::NameRows(std::int64_t id, std::size_t number) const
   }
   granular::PathRequest all;
   all.points = false;
-  granular::DumpRequest base;
+  granular::Request base;
   base.pool = this->Reader->Request.pool;
   granular::Notices notices;
   granular::Progress quiet;

@@ -249,24 +249,24 @@ void vtkGranularSeriesReader::Internals::Show(Shown& shown)
   request.piece = shown.Piece.Piece;
   request.pieces = shown.Piece.Pieces;
   granular::Communicator& group = this->FindGroup(shown, request);
-  granular::RunFrame frame = this->Run.read(shown.Number, request,
+  granular::Tables frame = this->Run.read(shown.Number, request,
     this->Run.known_offer(shown.Number), group, shown.Notices, shown.Progress);
   if (this->Run.kind().rows == granular::RowKind::Lines)
   {
-    this->Cells.CheckNames(shown.Where.path, shown.Notices, frame.rows.table.schema);
-    this->FillLines(shown, frame, granular::line_request(request));
+    this->Cells.CheckNames(shown.Where.path, shown.Notices, frame.rows.schema);
+    this->FillLines(shown, frame, request);
   }
   else
   {
-    this->Points.CheckNames(shown.Where.path, shown.Notices, frame.rows.table.schema);
-    this->Cells.CheckNames(shown.Where.path, shown.Notices, frame.bonds.table.schema);
+    this->Points.CheckNames(shown.Where.path, shown.Notices, frame.rows.schema);
+    this->Cells.CheckNames(shown.Where.path, shown.Notices, frame.bonds.schema);
     this->FillParticles(shown, frame, request);
   }
 }
 
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::FillLines(
-  Shown& shown, granular::RunFrame& frame, const granular::LineRequest& request)
+  Shown& shown, granular::Tables& frame, const granular::Request& request)
 {
   auto* lines = vtkPolyData::GetData(shown.Outputs, 0);
   auto* rows = vtkTable::GetData(shown.Outputs, 1);
@@ -275,15 +275,15 @@ void vtkGranularSeriesReader::Internals::FillLines(
   {
     vtkGranularPrivate::FillLines(lines, rows, frame.rows, request, shown.Where, shown.Notices);
   }
-  FillFieldData(lines->GetFieldData(), frame.rows.table, request.point_origin);
-  FillFieldData(rows->GetFieldData(), frame.rows.table, request.point_origin);
+  FillFieldData(lines->GetFieldData(), frame.rows, request.point_origin);
+  FillFieldData(rows->GetFieldData(), frame.rows, request.point_origin);
 }
 
 //------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::FillParticles(
-  Shown& shown, granular::RunFrame& frame, const granular::Request& request)
+  Shown& shown, granular::Tables& frame, const granular::Request& request)
 {
-  granular::DumpFrame& rows = frame.rows.table;
+  granular::Table& rows = frame.rows;
   auto* particles = vtkPolyData::GetData(shown.Outputs, 0);
   auto* box =
     vtkUnstructuredGrid::GetData(shown.Outputs, shown.Outputs->GetNumberOfInformationObjects() - 1);
@@ -301,9 +301,8 @@ void vtkGranularSeriesReader::Internals::FillParticles(
     auto* lines = vtkPolyData::GetData(shown.Outputs, 1);
     vtkNew<vtkTable> bonds;
     FillRows(bonds, frame.bonds);
-    vtkGranularPrivate::FillLines(
-      lines, bonds, frame.bonds, granular::line_request(request), shown.Where, shown.Notices);
-    FillFieldData(lines->GetFieldData(), frame.bonds.table, request.point_origin);
+    vtkGranularPrivate::FillLines(lines, bonds, frame.bonds, request, shown.Where, shown.Notices);
+    FillFieldData(lines->GetFieldData(), frame.bonds, request.point_origin);
   }
   if (!frame.groups.empty())
   {

@@ -143,8 +143,8 @@ struct vtkGranularSeriesReader::Internals
 
 private:
   granular::Communicator& FindGroup(Shown& shown, const granular::Request& request);
-  void FillLines(Shown& shown, granular::RunFrame& frame, const granular::LineRequest& lines);
-  void FillParticles(Shown& shown, granular::RunFrame& frame, const granular::Request& request);
+  void FillLines(Shown& shown, granular::Tables& frame, const granular::Request& lines);
+  void FillParticles(Shown& shown, granular::Tables& frame, const granular::Request& request);
 
   std::optional<std::string>
     LookedAt; ///< what GetLookKey was when the reader looked; nothing: it has not

@@ -8,7 +8,7 @@
 #include "private/request/processes.h"
 
 #include "granular/common/error.h"
-#include "granular/dump/write/dump_writer.h"
+#include "granular/formats/dump/write/dump_writer.h"
 #include "granular/frames/input_files.h"
 #include "granular/parallel/communicator.h"
 #include "granular/writing/file_names.h"

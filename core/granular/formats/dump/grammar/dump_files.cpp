@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/formats/dump/grammar/dump_files.h"
+
+#include "granular/formats/dump/grammar/atom_fit.h"
+#include "granular/formats/dump/grammar/binary_dump.h"
+#include "granular/formats/dump/grammar/binary_header.h"
+#include "granular/formats/dump/grammar/frame_rows.h"
+#include "granular/formats/dump/grammar/text_dump.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace granular
+{
+namespace
+{
+/// FileFormat::first_rows for particles: the ids, if there are any.
+std::vector<std::int64_t> find_first_ids(const FileIndex& file, const FrameEntry& entry)
+{
+  constexpr std::int64_t most = 20'000;
+  constexpr std::int64_t most_bytes = std::int64_t{ 1 } << 18;
+  const int column = entry.kind->schema.find(ColumnRole::Id);
+  if (column < 0)
+  {
+    return {};
+  }
+  std::vector<std::int64_t> ids(most);
+  std::int64_t count = 0;
+  ColumnSink sink = { static_cast<std::uint32_t>(column), ValueType::Int64,
+    reinterpret_cast<char*>(ids.data()), sizeof ids[0] };
+  try
+  {
+    const std::unique_ptr<ByteSource> source = open_indexed(file);
+    const std::unique_ptr<FrameRows> rows = open_rows(*source, entry);
+    const std::unique_ptr<RowReader> reader = rows->reader();
+    const std::int64_t step = chunk_extent(entry, most_bytes);
+    for (std::int64_t at = 0; at < extent_of(entry) && count < most; at += step)
+    {
+      reader->open(at, std::min(at + step, extent_of(entry)));
+      count += reader->decode({ &sink, 1 }, most - count);
+    }
+  }
+  catch (const Misfits&)
+  {
+  }
+  ids.resize(static_cast<std::size_t>(count));
+  return ids;
+}
+
+std::string describe_first(const ByteSource& source, const FrameEntry& entry)
+{
+  return entry.kind->is_text() ? ""
+                               : describe_first_row(source, entry.offset,
+                                   binary_layouts()[static_cast<std::size_t>(entry.kind->layout)]);
+}
+}
+
+const FileFormat& dump_format() noexcept
+{
+  static const FileFormat format = { .name = "a dump",
+    .index = index_dump,
+    .complete = complete_atom_names,
+    .lacks = lack_atom_names,
+    .describe = describe_first,
+    .first_rows = find_first_ids,
+    .large_runs = true };
+  return format;
+}
+
+bool is_dump(std::string_view first_bytes)
+{
+  return is_text_dump(first_bytes) || is_binary_dump(first_bytes);
+}
+
+bool is_dump_file(const std::string& path) noexcept
+{
+  return looks_so(path, [](const ByteSource& source) { return is_dump(first_bytes_of(source)); });
+}
+
+void index_dump(
+  const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
+{
+  std::array<char, 4096> first;
+  if (holds_binary({ first.data(), source.read(0, first.data(), first.size()) }))
+  {
+    index_binary_dump(source, index, progress);
+  }
+  else
+  {
+    index_text_dump(source, index, progress, ahead);
+  }
+}
+}

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/formats/dump/grammar/text_header.h"
+
+#include "granular/numbers/number.h"
+#include "granular/numbers/number_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace granular
+{
+namespace
+{
+/// Thrown where the text ends.
+struct EndOfText
+{
+};
+
+/// Takes the mark off a line that begins with it; else false.
+bool take_item(std::string_view& line) noexcept
+{
+  if (line.starts_with(byte_order_mark))
+  {
+    line.remove_prefix(byte_order_mark.size());
+  }
+  return take_word(line) == item_mark;
+}
+
+/// Returns the place in a line that is no start of a frame where the header of one begins; 0: there is none. A run that was
+/// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
+std::size_t find_glued_header(std::string_view line)
+{
+  if (line.find(item_mark, 1) == line.npos)
+  {
+    return 0;
+  }
+  const std::size_t found = line.rfind(item_mark); // the last: it may have been killed twice
+  const std::string_view before = line.substr(0, found);
+  return before == byte_order_mark || !has_words(before) ||
+      !opens_frame(item_words(line.substr(found)))
+    ? 0
+    : found;
+}
+
+/// The digits of %g, with which LIGGGHTS prints bounds.
+constexpr int fewest_digits = 6;
+
+/// Returns how far a number of six digits may be off because %g printed it: half a unit of the last one. Returns 0 for others,
+/// and for whole ones that end in 0.
+double rounding_of(std::string_view word, double value) noexcept
+{
+  const bool whole = word.find_first_of(".eE") == word.npos;
+  const bool is_round = digits_of(word) != fewest_digits || (whole && word.ends_with('0'));
+  return is_round || !std::isfinite(value)
+    ? 0
+    : 0.5 * std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - fewest_digits);
+}
+}
+
+std::vector<std::string_view> item_words(std::string_view line)
+{
+  return take_item(line) ? split_words(line) : std::vector<std::string_view>();
+}
+
+int digits_of(std::string_view word) noexcept
+{
+  word = word.substr(0, word.find_first_of("eE"));
+  const std::size_t first = word.find_first_of("123456789");
+  return first == word.npos ? 0
+                            : static_cast<int>(std::ranges::count_if(word.substr(first), is_digit));
+}
+
+bool opens_frame(std::span<const std::string_view> words) noexcept
+{
+  return words.size() == 1 && (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
+}
+
+bool begins_with(
+  std::span<const std::string_view> words, std::string_view name, bool alone) noexcept
+{
+  std::size_t same = 0;
+  for (auto wanted = take_word(name); !wanted.empty(); wanted = take_word(name))
+  {
+    if (same == words.size() || words[same] != wanted)
+    {
+      return false;
+    }
+    ++same;
+  }
+  return !alone || same == words.size();
+}
+
+const TextHeader::Section TextHeader::sections[] = {
+  { "TIMESTEP", true, &TextHeader::parse_timestep },
+  { "TIME", true, &TextHeader::parse_time },
+  { "UNITS", true, &TextHeader::parse_units },
+  { "LABEL", true, &TextHeader::parse_label },
+  { "NUMBER OF", false, &TextHeader::parse_rows },
+  { "BOX BOUNDS", false, &TextHeader::parse_box },
+  { "", false, &TextHeader::skip_section },
+};
+
+void TextHeader::restart(const std::string& units)
+{
+  header_.time.reset();
+  header_.label.clear();
+  header_.counted = rows_of_ == RowsOf::Particles ? "ATOMS" : "";
+  header_.units = units;
+  next_line_ = 0;
+  opened_ = has_timestep_ = has_rows_ = has_box_ = has_columns_ = false;
+}
+
+bool TextHeader::read()
+{
+  try
+  {
+    while (!has_columns_)
+    {
+      const std::string_view line = this->next();
+      if (has_words(line) && line != byte_order_mark)
+      {
+        this->read_section(line);
+      }
+    }
+  }
+  catch (const EndOfText&)
+  {
+  }
+  return has_columns_;
+}
+
+/// A section, or what lies between frames, from its first line on.
+void TextHeader::read_section(std::string_view line)
+{
+  // the words outlive the line: the sections read on
+  section_ = line;
+  std::string_view rest = section_;
+  words_.clear();
+  if (take_item(rest))
+  {
+    append_words(rest, words_);
+  }
+  const bool columns = opened_ && !header_.counted.empty() && begins_with(words_, header_.counted);
+  const auto section = std::ranges::find_if(sections,
+    [this](const Section& entry) { return begins_with(words_, entry.name, entry.alone); });
+  if (!opened_ && !words_.empty() && section->name.empty())
+  {
+    return this->skip_section(); // between frames, or behind the last
+  }
+  if (words_.empty() || (!opened_ && !opens_frame(words_)))
+  {
+    this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", section_);
+  }
+  if (!opened_)
+  {
+    opened_ = true;
+    offset_ = scanner_.last_offset();
+    line_ = scanner_.last_line();
+  }
+  this->look_for_next_frame();
+  columns ? this->parse_columns() : (this->*section->parse)();
+}
+
+std::string_view TextHeader::next()
+{
+  std::string_view line;
+  if (!scanner_.next(line))
+  {
+    throw EndOfText();
+  }
+  if (const std::size_t glued = find_glued_header(line))
+  {
+    const Where where = scanner_.where();
+    scanner_.go_to(scanner_.last_offset() + static_cast<std::int64_t>(glued), where.line);
+    throw FormatError("expected a whole line, got the header of another frame within it", where);
+  }
+  return line;
+}
+
+/// A second ITEM: TIMESTEP is that of another frame, and so are UNITS and TIME that came before it.
+void TextHeader::look_for_next_frame()
+{
+  if (!has_timestep_ || !opens_frame(words_))
+  {
+    return;
+  }
+  if (next_line_ == 0)
+  {
+    next_offset_ = scanner_.last_offset();
+    next_line_ = scanner_.last_line();
+  }
+  if (words_[0] == "TIMESTEP")
+  {
+    const Where where = scanner_.where();
+    scanner_.go_to(next_offset_, next_line_);
+    throw FormatError("expected " + this->columns_section() + ", got " + quoted(section_), where);
+  }
+}
+
+void TextHeader::fail(const std::string& expected, std::string_view got) const
+{
+  throw FormatError("expected " + expected + ", got " + quoted(got), scanner_.where());
+}
+
+/// The line that the header ends with.
+std::string TextHeader::columns_section() const
+{
+  return "ITEM: " + (header_.counted.empty() ? std::string("ENTRIES") : header_.counted);
+}
+
+void TextHeader::require(bool seen, const char* section) const
+{
+  if (!seen)
+  {
+    throw FormatError(std::string("expected ITEM: ") + section + " before " +
+        this->columns_section() + ", got none",
+      scanner_.where());
+  }
+}
+
+/// The next line with words.
+std::string_view TextHeader::value_line()
+{
+  std::string_view line = this->next();
+  while (!has_words(line))
+  {
+    line = this->next();
+  }
+  if (line.starts_with(item_mark))
+  {
+    const std::string copy(line);
+    scanner_.put_back();
+    this->fail("a value", copy);
+  }
+  return line;
+}
+
+std::int64_t TextHeader::integer(std::string_view word, const std::string& what) const
+{
+  std::int64_t value = 0;
+  if (!parse_int64(word.data(), word.data() + word.size(), value))
+  {
+    this->fail(what, word);
+  }
+  return value;
+}
+
+void TextHeader::parse_timestep()
+{
+  std::string_view line = this->value_line(); // some tools add the time as a second word
+  header_.timestep = this->integer(take_word(line), "an integer timestep");
+  has_timestep_ = true;
+}
+
+void TextHeader::parse_time()
+{
+  header_.time = this->read_numbers(1)[0];
+}
+
+void TextHeader::parse_units()
+{
+  std::string_view line = this->value_line();
+  header_.units = take_word(line);
+}
+
+void TextHeader::parse_label()
+{
+  header_.label = this->next();
+}
+
+void TextHeader::parse_rows()
+{
+  const std::string counted = join_words(std::span(words_).subspan(2));
+  const bool particles = counted == "ATOMS";
+  if (counted.empty() || (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
+  {
+    this->fail(rows_of_ == RowsOf::Others ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
+                                          : "ITEM: NUMBER OF ATOMS",
+      "ITEM: " + join_words(words_));
+  }
+  header_.counted = counted;
+  std::string_view line = this->value_line();
+  const std::string_view word = take_word(line);
+  const std::string number = std::string("a number of ") + (particles ? "atoms" : "rows");
+  header_.rows = this->integer(word, number);
+  if (header_.rows < 0)
+  {
+    this->fail(number + " >= 0", word);
+  }
+  has_rows_ = true;
+}
+
+/// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers.
+void TextHeader::parse_box()
+{
+  std::span<const std::string_view> rest = std::span(words_).subspan(2);
+  const bool tilted = begins_with(rest, "xy xz yz");
+  const bool general = begins_with(rest, "abc origin");
+  rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
+  Spelling spelling;
+  std::array<std::array<double, 4>, 3> n = {};
+  header_.box_rounding = {};
+  for (std::size_t line = 0; line < n.size(); ++line)
+  {
+    n[line] = this->read_numbers(general ? 4 : tilted ? 3 : 2, &spelling);
+    const auto& [lo, hi, tilt, none] = spelling.rounding;
+    header_.box_rounding[line] += std::max(lo, hi);
+    header_.box_rounding[line == 2 ? 1 : 0] += tilt; // xy and xz, then yz
+  }
+  if (spelling.digits > fewest_digits) // not printed by %g, which leaves zeros out
+  {
+    header_.box_rounding = {};
+  }
+  if (general)
+  {
+    header_.box = Box::from_vectors({ n[0][3], n[1][3], n[2][3] },
+      { Vector3{ n[0][0], n[0][1], n[0][2] }, Vector3{ n[1][0], n[1][1], n[1][2] },
+        Vector3{ n[2][0], n[2][1], n[2][2] } });
+  }
+  else
+  {
+    const Vector3 lo = { n[0][0], n[1][0], n[2][0] };
+    const Vector3 hi = { n[0][1], n[1][1], n[2][1] };
+    header_.box = tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2])
+                         : Box::from_bounds(lo, hi);
+  }
+  header_.box.boundary = join_words(rest);
+  constexpr std::size_t lammps = 22; // characters of its %.16e
+  header_.dialect = spelling.shortest >= lammps ? Dialect::Lammps : Dialect::Liggghts;
+  has_box_ = true;
+}
+
+std::array<double, 4> TextHeader::read_numbers(std::size_t count, Spelling* spelling)
+{
+  const std::string_view line = this->value_line();
+  std::array<std::string_view, 4> words;
+  std::size_t there = 0;
+  std::string_view rest = line;
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest))
+  {
+    words[std::min(there++, words.size() - 1)] = word;
+  }
+  if (there != count)
+  {
+    this->fail(std::to_string(count) + (count == 1 ? " number" : " numbers"), line);
+  }
+  std::array<double, 4> numbers = {};
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::string_view word = words[i];
+    if (!parse_double(word.data(), word.data() + word.size(), numbers[i]))
+    {
+      this->fail("a number", word);
+    }
+    if (spelling)
+    {
+      spelling->shortest = std::min(spelling->shortest, word.size());
+      spelling->digits = std::max(spelling->digits, digits_of(word));
+      spelling->rounding[i] = rounding_of(word, numbers[i]);
+    }
+  }
+  return numbers;
+}
+
+void TextHeader::parse_columns()
+{
+  this->require(has_timestep_, "TIMESTEP");
+  this->require(has_rows_, "NUMBER OF ATOMS");
+  this->require(has_box_ || header_.counted != "ATOMS", "BOX BOUNDS");
+  header_.has_box = has_box_;
+  header_.box = has_box_ ? std::move(header_.box) : Box();
+  const auto section = split_words(header_.counted).size();
+  column_names_.assign(words_.begin() + static_cast<std::ptrdiff_t>(section), words_.end());
+  has_columns_ = true;
+}
+
+void TextHeader::skip_section()
+{
+  while (item_words(this->next()).empty())
+  {
+  }
+  scanner_.put_back();
+}
+}

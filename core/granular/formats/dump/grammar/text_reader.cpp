@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/formats/dump/grammar/text_rows.h"
+
+#include "granular/numbers/number.h"
+#include "granular/text/line_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+namespace granular
+{
+namespace
+{
+/// With fewer rows than that for each stretch of chosen ones it is faster to decode them all: beginning a stretch takes as long as
+/// two of them.
+constexpr std::int64_t rows_a_stretch = 4;
+
+/// The line behind so many lines with words.
+const char* skip_rows(const char* at, const char* last, std::size_t rows) noexcept
+{
+  while (rows > 0)
+  {
+    const std::size_t length = std::string_view(at, static_cast<std::size_t>(last - at)).find('\n');
+    const char* const end = at + length;
+    rows -= std::all_of(at, end, is_blank) ? 0U : 1U;
+    at = end + 1;
+  }
+  return at;
+}
+
+/// Returns true if rows that were decoded may hold integers of 64 bits that no double holds, in a column where these count.
+bool may_be_long(std::span<const ColumnSink> sinks, std::int64_t rows) noexcept
+{
+  bool found = false;
+  for (const ColumnSink& sink : sinks)
+  {
+    const char* from = sink.data - rows * sink.stride;
+    for (std::int64_t row = sink.open ? 0 : rows; row < rows; ++row, from += sink.stride)
+    {
+      double value = 0;
+      std::memcpy(&value, from, sizeof value);
+      found |= std::abs(value) >= 0x1p53 && std::abs(value) <= 0x1p63; // without a branch for each
+    }
+  }
+  return found;
+}
+
+/// Returns true if a word is an integer of 64 bits that no double holds.
+bool is_long(std::string_view word) noexcept
+{
+  std::int64_t whole = 0;
+  const bool is_integer =
+    word.find_first_not_of("0123456789", word.front() == '-' ? 1 : 0) == word.npos &&
+    parse_int64(word.data(), word.data() + word.size(), whole);
+  const auto number = static_cast<double>(whole);
+  return is_integer && !(number < 0x1p63 && static_cast<std::int64_t>(number) == whole);
+}
+}
+
+/// Brings [from, to) of the content behind what is in the buffer.
+void TextReader::load(std::int64_t from, std::int64_t to)
+{
+  const auto bytes = static_cast<std::size_t>(to - from);
+  if (buffer_.size() < filled_ + bytes)
+  {
+    constexpr std::size_t step = std::size_t{ 1 } << 14; // chunks differ a little
+    buffer_.resize((filled_ + bytes) / step * step + 2 * step);
+  }
+  const std::size_t got = of_.source_.read(from, buffer_.data() + filled_, bytes);
+  if (got < bytes)
+  {
+    throw IoError("the file was shortened while it was read: expected " +
+        std::to_string(of_.entry_.end) + " bytes, got " +
+        std::to_string(from + static_cast<std::int64_t>(got)),
+      { of_.source_.path() });
+  }
+  filled_ += bytes;
+}
+
+/// A longer one may be anything: it is not read into memory to find its end.
+void TextReader::check_length(std::size_t first, std::size_t end) const
+{
+  if (end - first > TextScanner::longest_line)
+  {
+    throw LimitError("expected a row of at most " + std::to_string(TextScanner::longest_line) +
+        " bytes, got a longer one",
+      of_.where({ RowStatus::TooFew, -1, {}, offset_ + static_cast<std::int64_t>(first) }));
+  }
+}
+
+/// The end of the line that the byte at `at` is in, which is loaded as far as it is not. A line without
+/// a line feed at the end of the frame counts as not there.
+std::size_t TextReader::load_line(std::size_t at)
+{
+  const std::size_t before = std::string_view(buffer_.data(), at).rfind('\n');
+  const std::size_t line = before == std::string_view::npos ? first_ : std::max(first_, before + 1);
+  std::int64_t more = 4096;
+  for (;;)
+  {
+    const std::size_t feed = std::string_view(buffer_.data(), filled_).find('\n', at);
+    this->check_length(line, std::min(feed, filled_));
+    if (feed != std::string_view::npos)
+    {
+      return feed + 1;
+    }
+    at = filled_;
+    const std::int64_t offset = offset_ + static_cast<std::int64_t>(filled_);
+    if (offset == of_.entry_.end)
+    {
+      return line;
+    }
+    this->load(offset, std::min(of_.entry_.end, offset + more));
+    more *= 2;
+  }
+}
+
+void TextReader::open(std::int64_t first, std::int64_t last)
+{
+  constexpr std::int64_t rest = 512; // of the last row: most are shorter
+  const std::int64_t from = std::max(of_.rows_offset_, of_.entry_.offset + first);
+  const std::int64_t to = std::min(of_.entry_.end, of_.entry_.offset + last);
+  first_ = at_ = end_ = filled_ = 0;
+  surplus_ = false;
+  if (from >= to)
+  {
+    return;
+  }
+  const bool inside = from > of_.rows_offset_; // then the line feed before tells where rows begin
+  offset_ = from - (inside ? 1 : 0);
+  this->load(offset_, std::min(of_.entry_.end, to + rest));
+  const auto limit = static_cast<std::size_t>(to - offset_); // rows begin before
+  const std::string_view text(buffer_.data(), limit);
+  if (inside)
+  {
+    const std::size_t feed = text.substr(0, limit - 1).find('\n');
+    if (feed == text.npos)
+    {
+      return;
+    }
+    first_ = at_ = feed + 1;
+  }
+  end_ = this->load_line(limit - 1);
+}
+
+std::int64_t TextReader::rows() const noexcept
+{
+  std::int64_t rows = 0;
+  const char* const last = buffer_.data() + end_;
+  for (const char* first = buffer_.data() + first_; first < last;)
+  {
+    // a line may begin with any byte: that one is passed over as one that begins with another
+    const LineScan scan = scan_lines(first, last, '\0', { first == buffer_.data() + first_, true });
+    rows += scan.feeds - scan.blank_lines;
+    first = scan.ptr < last ? scan.ptr + 1 : last;
+  }
+  return rows;
+}
+
+bool TextReader::more() const noexcept
+{
+  return !std::all_of(buffer_.data() + at_, buffer_.data() + end_, is_blank);
+}
+
+std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
+{
+  const char* const last = buffer_.data() + end_;
+  const RowResult result =
+    decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows, memory_);
+  this->check(result, last, sinks);
+  this->check_doubles(buffer_.data() + at_, result.ptr, sinks, result.rows);
+  at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
+  surplus_ = surplus_ || result.surplus;
+  return result.rows;
+}
+
+/// Decodes all rows, chosen or not. Returns false, with the sinks as before, if a row is not what it should be: it may be one that
+/// nobody wants.
+bool TextReader::decode_numbers(
+  std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice, RowCounts& counts)
+{
+  constexpr std::int64_t most_looked_at = 256;
+  const std::vector<ColumnSink> before(sinks.begin(), sinks.end());
+  const auto chosen_by = std::ranges::find(before, choice.column, &ColumnSink::column);
+  const RowResult result = decode_rows(
+    buffer_.data() + at_, buffer_.data() + end_, this->columns(), sinks, max_rows, memory_);
+  if (result.status != RowStatus::Done || chosen_by == before.end() ||
+    may_be_long(sinks, result.rows))
+  {
+    std::ranges::copy(before, sinks.begin());
+    return false;
+  }
+  const std::int64_t looked_at = std::min(result.rows, most_looked_at);
+  std::int64_t chosen = 0;
+  const char* from = chosen_by->data;
+  for (std::int64_t row = 0; row < looked_at; ++row, from += chosen_by->stride)
+  {
+    std::int64_t number = 0;
+    std::memcpy(&number, from, sizeof number);
+    chosen += choice.passes(number) ? 1 : 0;
+  }
+  many_chosen_ = chosen > looked_at / rows_a_stretch;
+  at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
+  surplus_ = surplus_ || result.surplus;
+  counts = { result.rows, result.rows };
+  return true;
+}
+
+/// Decodes the column of the choice of all rows, and then whole stretches of rows that pass. A row in which the choice
+/// fails comes after those before it.
+RowCounts TextReader::decode_chosen(
+  std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice)
+{
+  RowCounts counts;
+  // texts of rows that nobody wants must not become words of an array
+  const bool texts =
+    std::ranges::any_of(sinks, [](const ColumnSink& sink) { return sink.type == ValueType::Text; });
+  if (many_chosen_ && !texts && this->decode_numbers(sinks, max_rows, choice, counts))
+  {
+    return counts;
+  }
+  chosen_by_.resize(static_cast<std::size_t>(max_rows));
+  ColumnSink numbers{ choice.column, ValueType::Int64, reinterpret_cast<char*>(chosen_by_.data()),
+    sizeof(std::int64_t) };
+  const char* at = buffer_.data() + at_;
+  const char* const last = buffer_.data() + end_;
+  const RowResult all =
+    decode_rows(at, last, this->columns(), std::span(&numbers, 1), max_rows, memory_);
+  const auto rows = static_cast<std::size_t>(all.rows);
+  const auto passes = [&](std::size_t row) { return choice.passes(chosen_by_[row]); };
+  counts = { all.rows };
+  std::size_t passed = 0; // rows before `at`
+  std::int64_t stretches = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    if (!passes(row))
+    {
+      continue;
+    }
+    const std::size_t first = row;
+    while (row + 1 < rows && passes(row + 1))
+    {
+      ++row;
+    }
+    at = skip_rows(at, last, first - passed);
+    passed = row + 1;
+    const char* const behind = skip_rows(at, last, passed - first);
+    const RowResult some = decode_rows(at, behind, this->columns(), sinks, max_rows, memory_);
+    this->check(some, behind, sinks);
+    this->check_doubles(at, behind, sinks, some.rows);
+    counts.decoded += some.rows;
+    at = behind;
+    ++stretches;
+  }
+  many_chosen_ = stretches > all.rows / rows_a_stretch;
+  this->check(all, last, std::span(&numbers, 1));
+  at_ = static_cast<std::size_t>(all.ptr - buffer_.data());
+  surplus_ = surplus_ || all.surplus;
+  return counts;
+}
+
+std::uint32_t TextReader::columns() const noexcept
+{
+  return static_cast<std::uint32_t>(of_.entry_.kind->schema.columns().size());
+}
+
+/// Throws Misfits if decoded rows, whose text is [first, last), hold integers that their columns of doubles do not.
+void TextReader::check_doubles(
+  const char* first, const char* last, std::span<const ColumnSink> sinks, std::int64_t rows) const
+{
+  if (!may_be_long(sinks, rows))
+  {
+    return;
+  }
+  Misfits misfits;
+  this->find_misfits(first, last, sinks, misfits);
+  if (!misfits.empty())
+  {
+    const std::int64_t lines = misfits.front().lines;
+    std::ranges::for_each(misfits, [&](Misfit& misfit) { misfit.lines -= lines; });
+    throw misfits;
+  }
+}
+
+/// Adds to the first misfit, if there is one, those behind its word, which ends at `from`. A column that must change is looked at
+/// as what it becomes.
+void TextReader::find_misfits(
+  const char* from, const char* last, std::span<const ColumnSink> sinks, Misfits& misfits) const
+{
+  std::vector<ValueType> types;
+  std::ranges::transform(sinks, std::back_inserter(types), &ColumnSink::type);
+  const auto change = [&](std::size_t sink, RowStatus status)
+  { types[sink] = status == RowStatus::NotExact ? ValueType::Float64 : ValueType::Text; };
+  int column = -1; // that of the last word that was taken
+  if (!misfits.empty())
+  {
+    column = misfits.front().column;
+    const auto first = std::ranges::find_if(
+      sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == column; });
+    change(static_cast<std::size_t>(first - sinks.begin()), misfits.front().status);
+  }
+  for (std::int64_t line = 0; from < last; ++line, column = -1)
+  {
+    const char* const end = std::find(from, last, '\n');
+    std::string_view rest(from, end);
+    for (std::size_t sink = 0; sink < sinks.size(); ++sink)
+    {
+      if (column >= static_cast<int>(sinks[sink].column))
+      {
+        continue;
+      }
+      std::string_view word;
+      for (; column < static_cast<int>(sinks[sink].column); ++column)
+      {
+        word = take_word(rest);
+      }
+      if (word.empty())
+      {
+        break; // a row of fewer words, or a blank line
+      }
+      const bool lost = sinks[sink].open && types[sink] == ValueType::Float64 && is_long(word);
+      const RowStatus status = lost ? RowStatus::NotDouble : check_word(word, types[sink]);
+      if (status != RowStatus::Done)
+      {
+        misfits.push_back(
+          { status, column, std::string(word), offset_ + (word.data() - buffer_.data()), line });
+        change(sink, status);
+      }
+    }
+    from = end + 1;
+  }
+}
+
+/// Throws what is wrong in the lines up to last, if anything is.
+void TextReader::check(
+  const RowResult& result, const char* last, std::span<const ColumnSink> sinks) const
+{
+  if (result.status == RowStatus::Done)
+  {
+    return;
+  }
+  const char* const end = result.status == RowStatus::TooFew
+    ? std::find(result.ptr, last, '\n')
+    : std::find_if(result.ptr, last, is_blank);
+  const bool too_few = result.status == RowStatus::TooFew;
+  Misfits misfits = { { result.status, too_few ? -1 : result.column, std::string(result.ptr, end),
+    offset_ + (result.ptr - buffer_.data()) } };
+  if (!too_few)
+  {
+    this->find_misfits(end, last, sinks, misfits);
+  }
+  throw misfits;
+}
+}

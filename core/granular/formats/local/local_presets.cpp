@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/formats/local/local_presets.h"
+
+#include "granular/common/words.h"
+#include "granular/lines/line_columns.h"
+#include "granular/numbers/number.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+// Names of the fields: property/local of LIGGGHTS prints batom1 batom2 btype, of WITH-BONDS and PFM also places and forces,
+// of Flexible_Fibers also torques; pair/gran/local and wall/gran/local print pos, id and force in this order.
+constexpr LocalPreset presets[] = {
+  { "BondIds", "id1 id2 btype" },
+  { "BondTypeIds", "btype id1 id2" },
+  { "Bonds", "x1 y1 z1 x2 y2 z2 id1 id2 btype" },
+  { "BondsForce", "x1 y1 z1 x2 y2 z2 id1 id2 btype forcex forcey forcez" },
+  { "BondsForceTorque",
+    "x1 y1 z1 x2 y2 z2 id1 id2 btype forcex forcey forcez torquex torquey torquez "
+    "equilibrium_length" },
+  { "Contacts", "x1 y1 z1 x2 y2 z2 id1 id2 periodic" },
+  { "ContactsForce", "x1 y1 z1 x2 y2 z2 id1 id2 periodic forcex forcey forcez" },
+  { "WallContacts", "x1 y1 z1 x2 y2 z2 mesh triangle id2" },
+  { "WallContactsForce", "x1 y1 z1 x2 y2 z2 mesh triangle id2 forcex forcey forcez" },
+  { "BondIdsForce", "id1 id2 btype dist engpot forcex forcey forcez" },
+  { "BondTypeIdsForce", "btype id1 id2 dist engpot forcex forcey forcez" },
+};
+
+bool says_something(const std::string& name)
+{
+  return find_known_column(local_name(name), local_known_columns()) != nullptr;
+}
+
+/// The columns that a preset names, if there are as many as it has: those whose names say nothing, or all.
+std::vector<std::size_t> columns_for(
+  const LocalPreset& preset, const std::vector<std::string>& columns, bool all)
+{
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    if (all || !says_something(columns[i]))
+    {
+      places.push_back(i);
+    }
+  }
+  return places.size() == split_words(preset.columns).size() ? places : std::vector<std::size_t>();
+}
+
+std::string describe(const LocalPreset& preset)
+{
+  return std::string(preset.name) + " (" + std::string(preset.columns) + ")";
+}
+
+/// Words of a list that blanks and commas separate.
+std::vector<std::string> words_of_list(const std::string& list)
+{
+  std::string spaced = list;
+  std::ranges::replace(spaced, ',', ' ');
+  const std::vector<std::string_view> words = split_words(spaced);
+  return { words.begin(), words.end() };
+}
+
+/// The names as a set. Throws FormatError where there is one twice.
+std::set<std::string_view> check_distinct(const std::vector<std::string>& names)
+{
+  std::set<std::string_view> seen;
+  for (const std::string& name : names)
+  {
+    if (!seen.insert(name).second)
+    {
+      throw FormatError("expected each name once in the column map, got '" + name + "' twice");
+    }
+  }
+  return seen;
+}
+
+/// The column that a word of a map means, by name or number.
+std::size_t column_of(const std::vector<std::string>& columns, const std::string& word)
+{
+  const auto found = std::ranges::find(columns, word);
+  if (found != columns.end())
+  {
+    return static_cast<std::size_t>(found - columns.begin());
+  }
+  std::int64_t number = 0;
+  if (parse_int64(word.data(), word.data() + word.size(), number) && number >= 1 &&
+    number <= static_cast<std::int64_t>(columns.size()))
+  {
+    return static_cast<std::size_t>(number - 1);
+  }
+  throw FormatError("expected a column, or its number from 1 to " + std::to_string(columns.size()) +
+    ", in the column map, got '" + word + "'; the columns are " + join_words(columns));
+}
+
+std::vector<std::string> name_by_pairs(
+  const std::vector<std::string>& columns, const std::vector<std::string>& pairs)
+{
+  std::vector<std::string> names = name_columns(columns);
+  std::map<std::size_t, std::string> given;
+  std::vector<std::string> all;
+  for (const std::string& pair : pairs)
+  {
+    const std::size_t equals = pair.find('=');
+    if (equals == pair.npos || equals == 0 || equals + 1 == pair.size())
+    {
+      throw FormatError(
+        "expected NAME=COLUMN in the column map, as in its other words, got '" + pair + "'");
+    }
+    const std::string name(local_name(pair.substr(0, equals)));
+    const std::size_t column = column_of(columns, pair.substr(equals + 1));
+    if (!given.emplace(column, name).second)
+    {
+      throw FormatError("expected each column once in the column map, got " + columns[column] +
+        " as '" + given[column] + "' and as '" + name + "'");
+    }
+    all.push_back(name);
+  }
+  const std::set<std::string_view> taken = check_distinct(all);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const auto found = given.find(i);
+    if (found != given.end())
+    {
+      names[i] = found->second;
+    }
+    else if (taken.contains(names[i]))
+    {
+      // its name is another column's now, perhaps also as the file spells it
+      names[i] = columns[i] + (taken.contains(columns[i]) ? "_file" : "");
+    }
+  }
+  return names;
+}
+}
+
+std::span<const LocalPreset> local_presets() noexcept
+{
+  return presets;
+}
+
+std::vector<std::string> name_columns(const std::vector<std::string>& columns)
+{
+  std::vector<std::string> names;
+  for (const std::string& column : columns)
+  {
+    names.emplace_back(local_name(column));
+  }
+  return names;
+}
+
+std::vector<std::string> name_columns(
+  const std::vector<std::string>& columns, const LocalPreset& preset)
+{
+  std::vector<std::size_t> places = columns_for(preset, columns, false);
+  places = places.empty() ? columns_for(preset, columns, true) : places;
+  if (places.empty())
+  {
+    throw FormatError("expected the " + std::to_string(split_words(preset.columns).size()) +
+      " columns of the preset " + describe(preset) + ", got " + std::to_string(columns.size()) +
+      ": " + join_words(columns));
+  }
+  std::vector<std::string> names = name_columns(columns);
+  std::size_t next = 0;
+  for (const std::string_view name : split_words(preset.columns))
+  {
+    names[places[next++]] = name;
+  }
+  return names;
+}
+
+std::vector<std::string> name_columns(
+  const std::vector<std::string>& columns, const std::string& map)
+{
+  const std::vector<std::string> words = words_of_list(map);
+  if (std::ranges::any_of(
+        words, [](const std::string& word) { return word.find('=') != word.npos; }))
+  {
+    return name_by_pairs(columns, words);
+  }
+  std::vector<std::string> names = expand_keywords(words, columns.size());
+  if (names.size() != columns.size())
+  {
+    throw FormatError("expected a name for each of " + std::to_string(columns.size()) +
+      " columns in the column map, got " + std::to_string(names.size()) + ": " + join_words(names) +
+      "; the columns are " + join_words(columns));
+  }
+  check_distinct(names);
+  return names;
+}
+
+bool say_what_they_are(const std::vector<std::string>& columns)
+{
+  const ColumnSchema schema = make_local_schema(name_columns(columns));
+  return has_ids(schema) || has_ends(schema);
+}
+
+std::vector<std::string> find_columns(const std::vector<std::string>& columns,
+  const LocalSample& sample, const Where& where, Notices& notices)
+{
+  if (sample.rows == 0 || say_what_they_are(columns))
+  {
+    return name_columns(columns);
+  }
+  std::vector<const LocalPreset*> as_long;
+  std::vector<const LocalPreset*> fitting;
+  for (const LocalPreset& preset : presets)
+  {
+    const std::vector<std::size_t> places = columns_for(preset, columns, false);
+    if (!places.empty())
+    {
+      as_long.push_back(&preset);
+      if (fits(preset, places, columns.size(), sample))
+      {
+        fitting.push_back(&preset);
+      }
+    }
+  }
+  if (fitting.size() != 1)
+  {
+    const std::vector<const LocalPreset*>& listed = fitting.empty() ? as_long : fitting;
+    std::string text = "expected columns whose names say what they hold, got " +
+      join_words(columns) + "; " +
+      (listed.empty()       ? "no preset has as many"
+          : fitting.empty() ? "no preset fits the values, of as many columns are"
+                            : "several presets fit the values:");
+    for (const LocalPreset* preset : listed)
+    {
+      text += " " + describe(*preset);
+    }
+    throw FormatError(text + "; set Preset or ColumnMap", where);
+  }
+  if (as_long.size() > 1)
+  {
+    std::vector<std::string_view> others;
+    for (const LocalPreset* preset : as_long)
+    {
+      if (preset != fitting[0])
+      {
+        others.push_back(preset->name);
+      }
+    }
+    notices.push_back({ where,
+      "the columns are not named: taken for the preset " + describe(*fitting[0]) +
+        ", which fits the values, and not for " + join_words(others) +
+        (fitting[0]->columns.find("force") != std::string_view::npos
+            ? "; that forces are forces, and not torques, the values do not say: see ColumnMap"
+            : "") });
+  }
+  return name_columns(columns, *fitting[0]);
+}
+}

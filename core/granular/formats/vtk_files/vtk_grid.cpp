@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/formats/vtk_files/vtk_grid.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace granular
+{
+namespace
+{
+constexpr std::int64_t points_a_cell = corners_of_voxel;
+}
+
+const VtkGridReader::Section VtkGridReader::sections[] = {
+  { vtk_points, "POINTS", &VtkGridReader::read_points },
+  { vtk_points, "VERTICES", &VtkGridReader::read_vertices, true },
+  { vtk_rectilinear, "DIMENSIONS", &VtkGridReader::read_dimensions },
+  { vtk_rectilinear, "X_COORDINATES", &VtkGridReader::read_coordinates },
+  { vtk_rectilinear, "Y_COORDINATES", &VtkGridReader::read_coordinates },
+  { vtk_rectilinear, "Z_COORDINATES", &VtkGridReader::read_coordinates },
+  { vtk_unstructured, "POINTS", &VtkGridReader::read_points },
+  { vtk_unstructured, "CELLS", &VtkGridReader::read_cells },
+  { vtk_unstructured, "CELL_TYPES", &VtkGridReader::read_types },
+};
+
+bool VtkGridReader::read()
+{
+  const auto* const section = std::ranges::find_if(sections,
+    [this](const Section& each)
+    { return each.dataset == grid_.header.dataset && file_.is(each.keyword); });
+  if (section == std::end(sections))
+  {
+    return false;
+  }
+  const auto bit = std::uint32_t{ 1 } << (section - sections);
+  if ((seen_ & bit) != 0)
+  {
+    file_.fail("one section of the name", section->keyword);
+  }
+  seen_ |= bit;
+  (this->*section->read)();
+  return true;
+}
+
+void VtkGridReader::end(bool at_end)
+{
+  for (std::size_t i = 0; i < std::size(sections); ++i)
+  {
+    const auto& [dataset, keyword, read, optional] = sections[i];
+    if (dataset == grid_.header.dataset && !optional && (seen_ >> i & 1) == 0)
+    {
+      at_end ? file_.fail_missing(keyword) : file_.fail(keyword, file_.words().front());
+    }
+  }
+  if (grid_.header.dataset == vtk_rectilinear)
+  {
+    grid_.cells = cells_between(grid_.counts);
+  }
+  else if (grid_.header.dataset == vtk_unstructured && types_ != grid_.cells)
+  {
+    throw FormatError("expected CELL_TYPES of " + std::to_string(grid_.cells) + " cells, got " +
+        std::to_string(types_),
+      file_.where(types_place_));
+  }
+}
+
+void VtkGridReader::read_points()
+{
+  const VtkArray array = file_.values(3);
+  grid_.cells = grid_.header.dataset == vtk_points ? array.tuples : grid_.cells;
+  file_.take(array, keep_, grid_.points);
+}
+
+/// Values are of points: what the vertices are does not matter, as long as there is nothing wrong with them.
+void VtkGridReader::read_vertices()
+{
+  const std::int64_t first = file_.count(1);
+  const std::int64_t second = file_.count(2);
+  const VtkCells vertices = file_.cells(keep_);
+  grid_.has_vertices =
+    vertices.counted ? second / 2 == first && second % 2 == 0 : second == vertices.size;
+  const auto& numbers = vertices.connectivity;
+  const auto other = std::ranges::find_if(
+    numbers, [this](std::int64_t number) { return number < 0 || number >= grid_.cells; });
+  if (other != numbers.end())
+  {
+    const auto after = std::ranges::upper_bound(vertices.offsets, other - numbers.begin());
+    const std::int64_t vertex = after - vertices.offsets.begin() - 1;
+    throw FormatError("expected points from 0 to " + std::to_string(grid_.cells - 1) +
+        " in vertex " + std::to_string(vertex) + ", got " + std::to_string(*other),
+      file_.where_of(vertices, vertex));
+  }
+}
+
+void VtkGridReader::read_dimensions()
+{
+  grid_.dimensions = { file_.count(1), file_.count(2), file_.count(3) };
+  grid_.dimensions_place = file_.line_place();
+}
+
+void VtkGridReader::read_coordinates()
+{
+  const VtkArray array = file_.values(1);
+  const auto axis = static_cast<std::size_t>((file_.words().front().front() | 0x20) - 'x');
+  if (array.tuples < 2)
+  {
+    file_.fail("at least 2 coordinates", file_.words()[1]);
+  }
+  grid_.counts[axis] = array.tuples;
+  file_.take(array, keep_, grid_.coordinates[axis]);
+}
+
+void VtkGridReader::read_cells()
+{
+  grid_.voxels = read_eight_point_cells(file_, keep_);
+  grid_.cells = grid_.voxels.size;
+}
+
+void VtkGridReader::read_types()
+{
+  const VtkArray array = { {}, ValueType::Int32, 1, file_.count(1) };
+  types_ = array.tuples;
+  types_place_ = file_.line_place();
+  std::vector<std::int64_t> types;
+  const VtkPlace first = file_.place();
+  file_.take(array, check_, types);
+  check_types(types, [&](std::int64_t cell) { return file_.where_of(first, array, cell); });
+}
+
+VtkCells read_eight_point_cells(LegacyVtk& file, bool keep)
+{
+  const std::int64_t first = file.count(1);
+  const std::int64_t second = file.count(2);
+  const bool counted = second % 9 == 0 && second / 9 == first;
+  const bool with_offsets = second % 8 == 0 && second / 8 == std::max(first, std::int64_t{ 1 }) - 1;
+  if (!counted && !with_offsets)
+  {
+    file.fail(
+      "eight points in each cell", "CELLS " + std::to_string(first) + " " + std::to_string(second));
+  }
+  VtkCells cells = file.cells(keep);
+  const std::vector<std::int64_t>& offsets = cells.offsets;
+  for (std::size_t i = 1; i < offsets.size(); ++i)
+  {
+    if (offsets[i] - offsets[i - 1] != points_a_cell)
+    {
+      fail_points_of_cell(
+        offsets[i] - offsets[i - 1], file.where_of(cells, static_cast<std::int64_t>(i) - 1));
+    }
+  }
+  return cells;
+}
+
+void fail_points_of_cell(std::int64_t points, const Where& where)
+{
+  throw FormatError("expected eight points in a cell, got " + std::to_string(points), where);
+}
+
+void check_types(const std::vector<std::int64_t>& types, const WhereOf& where_of)
+{
+  constexpr std::int64_t voxel = 11;
+  constexpr std::int64_t hexahedron = 12;
+  const auto other = std::find_if(types.begin(), types.end(),
+    [](std::int64_t type) { return type != voxel && type != hexahedron; });
+  if (other != types.end())
+  {
+    throw UnsupportedError(
+      "expected the cell type of a voxel (11) or a hexahedron (12), got " + std::to_string(*other),
+      where_of(other - types.begin()));
+  }
+}
+
+std::array<Vector3, corners_of_voxel> corners_of(
+  std::span<const double> points, const VtkCells& cells, std::int64_t cell, const WhereOf& where_of)
+{
+  const auto number_of_points = static_cast<std::int64_t>(points.size() / 3);
+  const std::int64_t* const numbers = cells.connectivity.data() + cell * points_a_cell;
+  std::array<Vector3, corners_of_voxel> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    if (numbers[i] < 0 || numbers[i] >= number_of_points)
+    {
+      throw FormatError("expected points from 0 to " + std::to_string(number_of_points - 1) +
+          " in cell " + std::to_string(cell) + ", got " + std::to_string(numbers[i]),
+        where_of(cell));
+    }
+    const double* const point = points.data() + 3 * numbers[i];
+    corners[i] = { point[0], point[1], point[2] };
+  }
+  return corners;
+}
+}
