@@ -149,7 +149,7 @@ class Layering(unittest.TestCase):
             core__granular__formats__dump__read__r_dot_cpp='#include "granular/formats/dump/grammar/f.h"\n'
             '#include "granular/formats/dump/write/w.h"\n#include "r.h"\n',
             core__granular__dump__d_dot_cpp='#include "granular/common/c.h"\n',
-            core__granular__euler__e_dot_cpp='#include "granular/frames/f.h"\n#include <mpi.h>\n',
+            core__granular__formats__euler__e_dot_cpp='#include "granular/frames/f.h"\n#include <mpi.h>\n',
             core__granular__formats__restart__r_dot_cpp='#include "granular/formats/local/b.h"\n',
             core__bonds__b_dot_cpp='#include "granular/formats/restart/r.h"\n#include "granular/mpi/m.h"\n',
             core__bonds__granular_bonds_dot_h="#include <stdint.h>\n#include <vector>\n",
@@ -161,7 +161,8 @@ class Layering(unittest.TestCase):
                 "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/compression.cpp:2",
                 "core/granular/bytes/inflate.cpp:2", "core/granular/dump/d.cpp:1",
                 "core/granular/formats/dump/read/r.cpp:2", "core/granular/formats/dump/read/r.cpp:3",
-                "core/granular/euler/e.cpp:2", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
+                "core/granular/formats/euler/e.cpp:2",
+                "core/granular/formats/restart/r.cpp:1", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
 
     def test_rooms(self):
         files = {f"core__granular__text__a{i}_dot_h": "" for i in range(layering.MOST_FILES)}
