@@ -99,8 +99,10 @@ extern "C"
   {
     if (options != nullptr)
     {
-      *options = { sizeof(*options), GRANULAR_KIND_AUTOMATIC, 1, "", "", "", "", 0, 0, nullptr,
-        nullptr, nullptr };
+      *options = {};
+      options->size = sizeof(*options);
+      options->kind = GRANULAR_KIND_AUTOMATIC;
+      options->timestep_size = 1;
     }
   }
 
@@ -222,9 +224,9 @@ extern "C"
       *request = {};
       request->size = sizeof(*request);
       request->points = 1;
+      const double region[] = { 1, -1, 1, -1, 1, -1 };
+      std::memcpy(request->region, region, sizeof(region));
       request->stride = 1;
-      const double everywhere[] = { 1, -1, 1, -1, 1, -1 };
-      std::memcpy(request->region, everywhere, sizeof(everywhere));
     }
   }
 

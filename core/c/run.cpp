@@ -9,6 +9,7 @@
 #include "granular/parallel/executor.h"
 
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 namespace granular_c
@@ -31,21 +32,52 @@ const Kind& choose_kind(granular_kind wanted, const std::string& path)
   return **found;
 }
 
-RunOptions run_options(const granular_open_options& options)
+template <class Choice>
+void take_choice(Choice& made, int given, int most, const char* name)
+{
+  if (given < 0 || given > most)
+  {
+    throw ArgumentError("expected " + std::string(name) + " from 0 to " + std::to_string(most) +
+      ", got " + std::to_string(given));
+  }
+  made = static_cast<Choice>(given);
+}
+
+template <class Count>
+Count at_least(std::type_identity_t<Count> least, Count given, const char* name)
+{
+  if (given < least)
+  {
+    throw ArgumentError("expected " + std::string(name) + " of at least " + std::to_string(least) +
+      ", got " + std::to_string(given));
+  }
+  return given;
+}
+
+RunOptions run_options(const granular_open_options& given)
 {
   RunOptions made;
-  if (options.repeated_steps < 0 || options.repeated_steps > 2)
-  {
-    throw ArgumentError(
-      "expected repeated_steps from 0 to 2, got " + std::to_string(options.repeated_steps));
-  }
-  made.repeated_steps = static_cast<RepeatedSteps>(options.repeated_steps);
-  made.column_names = text_of(options.column_names);
-  made.preset = text_of(options.preset);
-  made.column_map = text_of(options.column_map);
-  made.atom_style = text_of(options.atom_style);
-  made.threads = options.threads > 0 ? options.threads : available_cores();
+  made.column_names = text_of(given.column_names);
+  made.preset = text_of(given.preset);
+  made.column_map = text_of(given.column_map);
+  made.atom_style = text_of(given.atom_style);
+  made.boundary = text_of(given.boundary);
+  take_choice(made.history_layout, given.history_layout, 5, "history_layout");
+  take_choice(made.repeated_steps, given.repeated_steps, 2, "repeated_steps");
+  made.threads = given.threads > 0 ? given.threads : available_cores();
   return made;
+}
+
+void take(Request& made, const granular_request& given)
+{
+  std::copy_n(given.region, 6, made.region.begin());
+  made.stride = at_least(1, given.stride, "stride");
+  take_choice(made.coordinates, given.coordinates, 2, "coordinates");
+  take_choice(made.single_precision, given.single_precision, 1, "single_precision");
+  std::copy_n(given.origin, 3, made.point_origin.begin());
+  made.sort_by_id = given.sort_by_id != 0;
+  take_choice(made.periodic_lines, given.periodic_lines, 2, "periodic_lines");
+  made.threads = given.threads > 0 ? given.threads : available_cores();
 }
 }
 
@@ -63,15 +95,6 @@ void Caller::tell(const Notices& notices) const
 Wanted::Wanted(const granular_request& given)
   : table(given.table)
 {
-  if (given.stride < 1)
-  {
-    throw ArgumentError("expected a stride of at least 1, got " + std::to_string(given.stride));
-  }
-  if (given.coordinates < GRANULAR_ABSOLUTE || given.coordinates > GRANULAR_SCALED)
-  {
-    throw ArgumentError(
-      "expected coordinates from 0 to 2, got " + std::to_string(given.coordinates));
-  }
   if (given.arrays == nullptr && given.array_count > 0)
   {
     throw ArgumentError("expected names of arrays, got null");
@@ -87,17 +110,11 @@ Wanted::Wanted(const granular_request& given)
   const bool all = given.arrays == nullptr;
   const Request::Choice choice = [all, list = names](std::string_view name, bool is_usual)
   { return all ? is_usual : std::ranges::find(list, name) != list.end(); };
-  request.coordinates = static_cast<Coordinates>(given.coordinates);
+  take(request, given);
   request.points = given.points != 0 && choice(points_name, true);
-  request.single_precision = given.single_precision != 0;
-  std::copy_n(given.origin, 3, request.point_origin.begin());
-  request.sort_by_id = given.sort_by_id != 0;
-  request.stride = given.stride;
-  std::copy_n(given.region, 6, request.region.begin());
   request.bonds = table == 1;
   request.wanted = request.bonds ? [](std::string_view, bool) { return false; } : choice;
   request.wanted_bonds = choice;
-  request.threads = given.threads > 0 ? given.threads : available_cores();
 }
 }
 
@@ -238,6 +255,12 @@ std::unique_ptr<granular_frame> granular_run::read(
       "expected a dump or a data file for stride, region, coordinates and sort_by_id, got "
       "another kind of file",
       where_of(this->index().first_piece(frame)));
+  }
+  if (asked.periodic_lines == PeriodicLines::Split)
+  {
+    throw ArgumentError(
+      "expected periodic_lines that leave a line for each row, got split (1), for which see the "
+      "readers of ParaView");
   }
   Request request = asked;
   request.pool = pool;

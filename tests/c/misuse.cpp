@@ -152,6 +152,7 @@ TEST(CMisuse, ChoicesThatThereAreNot)
     [](auto& options) { options.kind = static_cast<granular_kind>(77); }, "granular_kind, got 77");
   refused([](auto& options) { options.timestep_size = 0; }, "timestep_size greater than 0");
   refused([](auto& options) { options.repeated_steps = 3; }, "repeated_steps from 0 to 2, got 3");
+  refused([](auto& options) { options.history_layout = -1; }, "history_layout from 0 to 5, got -1");
 
   const auto refused_request = [&](auto change, const std::string& words)
   {
@@ -165,6 +166,7 @@ TEST(CMisuse, ChoicesThatThereAreNot)
   };
   refused_request([](auto& request) { request.stride = 0; }, "stride of at least 1, got 0");
   refused_request([](auto& request) { request.table = 1; }, "expected table 0, got 1");
+  refused_request([](auto& request) { request.periodic_lines = 1; }, "got split (1)");
   refused_request([](auto& request)
     { request.coordinates = static_cast<granular_coordinates>(-77); },
     "coordinates from 0 to 2, got -77");

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Each rule on small trees: what must be found, with file and line, and what must not."""
 import os
+import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -8,6 +11,7 @@ import hard_cases
 import layering
 import links
 import messages
+import options
 import reference
 import server_manager
 import sizes
@@ -431,6 +435,11 @@ class vtkGranularA : public vtkPolyDataAlgorithm
         own = self.xml(f'<Shared name="P" of="Size">\n{self.DOCUMENTATION}\n</Shared>\n' + self.property('name="c" command="SetNone"'))
         self.assertEqual(self.check(xml__a_dot_xml=own, xml__shared__P_dot_xml=part), ["xml/a.xml:3", "xml/a.xml:6"])
 
+    def test_names_of_state_files(self):
+        own = self.xml(self.property('name="Size" command="SetSize"'))
+        self.assertEqual(self.check(xml__a_dot_xml=own, tests__lint__property_names_dot_txt="A: Size\nA: Size Gone\nB:\n"),
+                         ["tests/lint/property_names.txt:2", "tests/lint/property_names.txt:3"])
+
     def test_element(self):
         text = self.xml("").replace("SourceProxy", "GranularAProxy")
         self.assertEqual(self.check(xml__a_dot_xml=text), ["xml/a.xml:2"])
@@ -452,6 +461,51 @@ class vtkGranularA : public vtkPolyDataAlgorithm
         self.assertEqual(self.check(**shared), ["xml/b.xml:4"])
         looks = self.HEADER.replace("};", "  static int CanReadFile(const char* name);\n};")
         self.assertEqual(found(server_manager.check, plugin__vtk__vtkGranularA_dot_h=looks, **shared), [])
+
+
+class Options(unittest.TestCase):
+    ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+    PRETEND = """
+[[option]]
+name = "pretend_size"
+property = "PretendSize"
+of = "files"
+type = "count"
+minimum = 3
+default = 7
+text = "a size that there is not"
+page = "A size that there is not. At least 3; default 7."
+"""
+
+    def test_a_pretend_option_in_one_place_is_everywhere(self):
+        with tempfile.TemporaryDirectory() as root:
+            for folder in ("core", "xml"):
+                shutil.copytree(os.path.join(self.ROOT, folder), os.path.join(root, folder))
+            self.assertEqual(list(options.check(root)), [])
+            with open(os.path.join(root, options.TABLE), "a", encoding="utf-8") as table:
+                table.write(self.PRETEND)
+            self.assertEqual(len(list(options.check(root))), 6)
+            made = options.made(root)
+            for name, text in made.items():
+                with open(os.path.join(root, name), "w", encoding="utf-8") as stream:
+                    stream.write(text)
+            for path, expected in (
+                    ("xml/shared/PretendSize.xml", '<IntRangeDomain name="range" min="3"/>'),
+                    ("xml/shared/PretendSize.xml", "A size that there is not. At least 3; default 7."),
+                    ("core/c/granular.h", "/* a size that there is not */\n  int64_t pretend_size;"),
+                    ("core/c/granular_c.cpp", "options->pretend_size = 7;"),
+                    ("core/c/run.cpp", 'made.pretend_size = at_least(3, given.pretend_size, "pretend_size");'),
+                    ("core/python/vtkgranular/_run.py", "pretend_size: int = 7"),
+                    ("core/python/vtkgranular/_run.py", "    pretend_size    a size that there is not\n")):
+                self.assertIn(expected, made[path])
+            package = os.path.join(root, "core", "python")
+            shutil.copy(os.path.join(package, "vtkgranular", "_folders.py.in"), os.path.join(package, "vtkgranular", "_folders.py"))
+            tell = ("import argparse, inspect, vtkgranular; from vtkgranular.command import add_reading; parser = argparse.ArgumentParser(); "
+                    "add_reading(parser); print(inspect.signature(vtkgranular.open)); print(vtkgranular.open.__doc__); print(parser.format_help())")
+            said = subprocess.run([sys.executable, "-c", tell], env={**os.environ, "PYTHONPATH": package}, capture_output=True, text=True)
+            self.assertEqual(said.stderr, "")
+            self.assertIn("pretend_size: 'int' = 7", said.stdout)
+            self.assertRegex(said.stdout, r"--pretend-size N\s+a size that there is not")
 
 
 if __name__ == "__main__":

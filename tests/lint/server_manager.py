@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The XML of the server manager against the classes it speaks of: every command is a method of the
-class, an element of our own has its proxy class, every property says what it is, no property has a
+class, names that state files hold stay, an element of our own has its proxy class, every property says what it is, no property has a
 label (a label would become its name in Python) or a name that ParaView takes for the times of the
 data, no two proxies of a kind claim one file extension, but readers that look into files, and the
 panel of a reader with times begins with them."""
@@ -19,6 +19,7 @@ INHERITED = {
 TIMES = {"TimestepValues", "TimeRange", "TimeLabelAnnotation"}
 COMMANDS = ("command", "clean_command", "set_number_command")
 SHORTEST_DOCUMENTATION = 20
+NAMES = "tests/lint/property_names.txt"
 SHARED = re.compile(r'<Shared name="(?P<name>[A-Za-z]+)"(?: of="(?P<of>[A-Za-z]+)")?(?:/>|>(?P<inside>.*?)</Shared>)', re.DOTALL)
 
 
@@ -168,6 +169,24 @@ def check_times(proxy):
             yield proxy.path, proxy.line, f"{proxy.get('name')}: TimestepSize is not first, in a group whose label tells what times are"
 
 
+def settings(proxy):
+    """The names that a state file may hold."""
+    return {child.get("name") for child in proxy.children if child.tag.endswith("Property") and child.get("name") and
+            not child.get("information_only")}
+
+
+def check_names(root, found):
+    """State files of users hold the names of proxies and properties: those of NAMES must stay."""
+    if not os.path.exists(os.path.join(root, NAMES)):
+        return
+    known = {proxy.get("name"): settings(proxy) for _, proxy in found if proxy.get("class")}
+    for number, line in enumerate(tree.read(root, NAMES).splitlines(), 1):
+        name, _, properties = line.partition(":")
+        lost = set(properties.split()) - known.get(name, set())
+        if lost or name not in known:
+            yield NAMES, number, f"{name}: lacks {', '.join(sorted(lost))}, which state files name: if it must go, CHANGELOG says so"
+
+
 def check_extensions(root, found):
     """found: (kind, extension, path, line, proxy, class) of every claim. Readers that look into a file may share its
     extension."""
@@ -194,6 +213,7 @@ def check(root):
                 claims += [(kind, extension, proxy.path, hint.line, proxy.get("name"), proxy.get("class"))
                            for extension in hint.get("extensions").split()]
     yield from check_extensions(root, claims)
+    yield from check_names(root, found)
 
 
 if __name__ == "__main__":

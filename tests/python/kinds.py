@@ -94,6 +94,9 @@ vg.write("fibres.dump", frame)
 again = vg.open("fibres.bonds")[0]
 assert sorted(zip(again["id1"], again["id2"])) == sorted(zip(bonds["id1"], bonds["id2"]))
 assert numpy.array_equal(vg.open("fibres.dump")[0].points, frame.points)
+numbered = vg.open(path, history_layout="numbered")[0].bonds
+assert "force_normal" in bonds and "force_normal" not in numbered
+assert numpy.array_equal(numbered["history2"], bonds["force_normal"][:, 1])
 
 # a data file
 path = os.path.join(SAMPLES, "bonds", "chain.data")
@@ -103,6 +106,19 @@ assert run.kind == "data" and frame.rows == len(atoms)
 for number, point in zip(frame["id"].tolist(), frame.points.tolist()):
     assert all(value in atoms[number] for value in point), (number, point)
 assert len(frame.bonds["id1"]) == len(plain_data.Data(path).rows("Bonds"))
+
+# a bond of 8 across a box of 10: as the file has it, or by the nearest image where the axis is periodic
+with open("across.data", "w") as stream:
+    stream.write("title\n\n2 atoms\n1 bonds\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\nAtoms # bond\n\n1 0 1 9 5 5\n2 0 1 1 5 5\n\n"
+                 "Bonds\n\n1 1 1 2\n")
+across = vg.open("across.data", boundary="p f f")
+assert across[0].box.boundary == "pp ff ff" and across[0].bonds["length"].tolist() == [2]
+assert across.read(0, periodic_lines="as_written").bonds["length"].tolist() == [8] == vg.open("across.data")[0].bonds["length"].tolist()
+try:
+    across.read(0, periodic_lines="split").bonds["length"]
+    raise SystemExit("split lines were read")
+except vg.ArgumentError as error:
+    assert "a line for each row" in str(error)
 
 # a tilted box: the file has its own bounds, not those around it, and corner and edges are rounded once
 bounds, tilts = (("1000.1", "1000.4"), ("-0.3", "0.4"), ("7", "7.7")), ("-0.07", "0.05", "-0.03")

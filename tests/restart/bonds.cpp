@@ -189,7 +189,7 @@ TEST(RestartBonds, HistoryWithoutSign)
   EXPECT_EQ(values_of<double>(run.frame.bonds, "damage"), std::vector<double>{ 7 });
   EXPECT_EQ(
     values_of<double>(run.frame.bonds, "force_normal"), (std::vector<double>{ -20, -19, -18 }));
-  const RestartRun unnamed = read_run(builder, {}, 1); // has 13
+  const RestartRun unnamed = read_run(builder, {}, 3); // has 13
   EXPECT_EQ(values_of<double>(unnamed.frame.bonds, "history13"), std::vector<double>{ -8 });
   EXPECT_EQ(array_of(unnamed.frame.bonds, "damage"), nullptr);
   EXPECT_NE(unnamed.said().find("expected 13 history values of a bond, as PFM has them, got 14"),
@@ -204,20 +204,20 @@ TEST(RestartBonds, Layouts)
     EXPECT_EQ(static_cast<std::int64_t>(columns.size()), 3 + values);
     return columns.back().name;
   };
-  EXPECT_EQ(last(-1, 12), "torque_tangentialz");
-  EXPECT_EQ(last(-1, 13), "equilibrium_length");
-  EXPECT_EQ(last(-1, 13, "Version LIGGGHTS-PFM 24.01, compiled"), "initial_length");
-  EXPECT_EQ(last(-1, 14, "Version LIGGGHTS-PFM 24.01, compiled"), "damage");
-  EXPECT_EQ(last(2, 13, "Version LIGGGHTS-PFM 24.01, compiled"), "equilibrium_length");
-  EXPECT_EQ(last(1, 13), "initial_length");
-  EXPECT_EQ(last(2, 13), "equilibrium_length");
-  EXPECT_EQ(last(-1, 14), "damage");
-  EXPECT_EQ(last(0, 14), "history14");
-  EXPECT_EQ(last(-1, 2), "history2");
+  EXPECT_EQ(last(0, 12), "torque_tangentialz");
+  EXPECT_EQ(last(0, 13), "equilibrium_length");
+  EXPECT_EQ(last(0, 13, "Version LIGGGHTS-PFM 24.01, compiled"), "initial_length");
+  EXPECT_EQ(last(0, 14, "Version LIGGGHTS-PFM 24.01, compiled"), "damage");
+  EXPECT_EQ(last(4, 13, "Version LIGGGHTS-PFM 24.01, compiled"), "equilibrium_length");
+  EXPECT_EQ(last(3, 13), "initial_length");
+  EXPECT_EQ(last(4, 13), "equilibrium_length");
+  EXPECT_EQ(last(0, 14), "damage");
+  EXPECT_EQ(last(2, 14), "history14");
+  EXPECT_EQ(last(0, 2), "history2");
   EXPECT_EQ(last(99, 12), "history12");
-  EXPECT_EQ(last(-1, 0), "btype");
+  EXPECT_EQ(last(0, 0), "btype");
   for (const auto& [layout, values] :
-    std::vector<std::pair<int, std::int64_t>>{ { 0, 12 }, { 1, 13 }, { 2, 13 }, { 3, 14 } })
+    std::vector<std::pair<int, std::int64_t>>{ { 2, 12 }, { 3, 13 }, { 4, 13 }, { 5, 14 } })
   {
     const auto columns = granular::make_bond_schema(layout, {}, values).columns();
     for (std::size_t i = 3; i < columns.size(); ++i)

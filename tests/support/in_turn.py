@@ -21,7 +21,7 @@ import traceback
 SAY_INTO = """
 import os, sys
 sys.stdout.flush()
-said = os.open(f"{path}.{{os.getpid()}}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+said = os.open(f"{path}.{{os.getpid()}}", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
 os.dup2(said, 1)
 os.dup2(said, 2)
 os.close(said)

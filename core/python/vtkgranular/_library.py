@@ -12,11 +12,11 @@ from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_i
 from typing import Any, Callable
 
 from ._folders import LIBRARY, LIBRARY_FOLDER, VERSION
+from ._options import FILES, FRAME, Option
 
 PROGRESS = CFUNCTYPE(c_int, c_double, c_void_p)
 NOTICE = CFUNCTYPE(None, c_char_p, c_void_p)
 
-KINDS = ("dump", "local", "restart", "data", "euler", "decomposition")
 # numpy's names of the types of granular_type; the last one are indices of words
 TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64", "int32")
 TEXT = 10
@@ -55,10 +55,13 @@ class _CError(Structure):
                 ("byte", c_int64), ("column", c_char_p), ("system_error", c_int)]
 
 
+def _fields_of(options: tuple[Option, ...]) -> list[tuple[str, Any]]:
+    types = {"text": c_char_p, "names": c_char_p, "count": c_int64, "number": c_double, "point": c_double * 3, "region": c_double * 6}
+    return [(option.c, types.get(option.type, c_int)) for option in options]
+
+
 class OpenOptions(Structure):
-    _fields_ = [("size", c_size_t), ("kind", c_int), ("timestep_size", c_double), ("column_names", c_char_p), ("preset", c_char_p),
-                ("column_map", c_char_p), ("atom_style", c_char_p), ("repeated_steps", c_int),
-                ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+    _fields_ = [("size", c_size_t), ("kind", c_int), *_fields_of(FILES), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
 
 
 class RunFacts(Structure):
@@ -80,9 +83,7 @@ class ArrayFacts(Structure):
 
 class Request(Structure):
     _fields_ = [("size", c_size_t), ("table", c_int), ("arrays", POINTER(c_char_p)), ("array_count", c_size_t), ("points", c_int),
-                ("coordinates", c_int), ("single_precision", c_int), ("origin", c_double * 3), ("sort_by_id", c_int),
-                ("stride", c_int64), ("region", c_double * 6), ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE),
-                ("user", c_void_p)]
+                *_fields_of(FRAME), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
 
 
 class CBox(Structure):

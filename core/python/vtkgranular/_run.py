@@ -13,6 +13,7 @@ from collections import namedtuple
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, NoReturn, Sequence
 
 from . import _library as c
+from ._options import FILES, FRAME, KINDS, Option
 
 if TYPE_CHECKING:
     import numpy
@@ -26,16 +27,30 @@ Column = namedtuple("Column", "name type components unit meaning")
 #: component, the array and its place there, or None for the whole array.
 _Columns = namedtuple("_Columns", "usual others sizes words")
 
-_COORDINATES = ("absolute", "unwrapped", "scaled")
-_STEPS = ("auto", "merge", "last")
-# Options of vtkgranular.open, and the properties of readers of ParaView that mean the same.
-_PROPERTIES = {"column_names": "ColumnNames", "preset": "Preset", "column_map": "ColumnMap", "atom_style": "AtomStyle"}
 
 
 def _choice(what: str, given: str, choices: Sequence[str]) -> int:
     if given not in choices:
         raise c.ArgumentError(f"expected {what} of {', '.join(choices)}, got {given!r}")
     return choices.index(given)
+
+
+def _fill(struct: c.Structure, options: tuple[Option, ...], given: dict[str, Any]) -> None:
+    """Fills a struct of the library with the options that were given."""
+    for option in options:
+        value = given.get(option.name)
+        if value is None:
+            continue
+        if option.type in ("text", "names"):
+            setattr(struct, option.c, words_of(value).encode())
+        elif option.type == "choice":
+            setattr(struct, option.c, _choice(option.name, value, option.choices))
+        elif option.type == "point":
+            getattr(struct, option.c)[:] = [float(x) for x in value]
+        elif option.type == "region":
+            getattr(struct, option.c)[:] = _region(value)
+        else:
+            setattr(struct, option.c, {"flag": bool, "number": float}.get(option.type, int)(value))
 
 
 def words_of(given: str | Iterable[str] | None) -> str:
@@ -375,10 +390,10 @@ class Frame(Mapping[str, Any]):
 
     @property
     def bonds(self) -> Frame:
-        """The bonds of a restart or data file. Raises ValueError for other files."""
+        """The bonds of a restart or data file, of the part of the frame that was asked for. Raises ValueError for other files."""
         if self._kind not in ("restart", "data"):
             raise c.ArgumentError(f"expected a restart or data file, got a {self._kind} file: open the file of its bonds")
-        return Frame(self._run, self._number, {}, bonds=True, place=self._place)
+        return Frame(self._run, self._number, self._request, bonds=True, place=self._place)
 
     def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
         """Reads all that is wanted at once, and returns the frame itself."""
@@ -586,12 +601,8 @@ class Run(_Frames):
         given = c.OpenOptions()
         library.granular_open_options_init(c.byref(given))
         kind = options.get("kind")
-        given.kind = -1 if kind is None else _choice("a kind", kind, c.KINDS)
-        given.timestep_size = 1.0 if options.get("dt") is None else float(options["dt"])
-        for name in _PROPERTIES:
-            setattr(given, name, words_of(options.get(name)).encode())
-        given.repeated_steps = _choice("repeated_steps", options.get("repeated_steps", "auto"), _STEPS)
-        given.threads = int(options.get("threads", 0))
+        given.kind = -1 if kind is None else _choice("a kind", kind, KINDS)
+        _fill(given, FILES, options)
         pointer = c.c_void_p()
         with c.Calls(progress, _warn) as calls:
             given.progress, given.notice = calls.progress, calls.notice
@@ -680,15 +691,7 @@ class Run(_Frames):
             kept = c.texts(names or [""])
             given.arrays, given.array_count = kept, len(names)
         given.points = 1 if names is None or "points" in names else 0
-        given.coordinates = _choice("coordinates", request.get("coordinates", "absolute"), _COORDINATES)
-        given.single_precision = _choice("a precision", request.get("precision", "double"), ("double", "single"))
-        given.sort_by_id = int(bool(request.get("sort", False)))
-        given.stride = int(request.get("stride", 1))
-        given.threads = int(request.get("threads", 0))
-        if request.get("origin") is not None:
-            given.origin[:] = [float(x) for x in request["origin"]]
-        if request.get("region") is not None:
-            given.region[:] = _region(request["region"])
+        _fill(given, FRAME, request)
         pointer = c.c_void_p()
         with c.Calls(progress, warn) as calls:
             given.progress, given.notice = calls.progress, calls.notice
@@ -700,7 +703,7 @@ class Run(_Frames):
     @property
     def kind(self) -> str:
         """What the files are: "dump", "local", "restart", "data", "euler" or "decomposition"."""
-        return c.KINDS[self._info().kind]
+        return KINDS[self._info().kind]
 
     @property
     def paths(self) -> list[str]:
@@ -725,29 +728,35 @@ class Run(_Frames):
         return self[number.value]
 
     def read(self, frame: int = -1, columns: Iterable[str] | None = None, region: Any = None, stride: int = 1,
-             coordinates: str = "absolute", precision: str = "double", origin: Any = None, sort: bool = False, threads: int = 0,
+             coordinates: str = "absolute", precision: str = "double", origin: Any = None, sort: bool = False,
+             periodic_lines: str = "minimum_image", threads: int = 0,
              progress: Callable[[float], Any] | None = None) -> Frame:
         """Reads a part of a frame, and returns it.
 
-        frame        its number, from 0, or from the end: -1 (default) is the last one
-        columns      names of arrays or columns, as a list or one text: "id v", ["id", "vx"]; None: all. Others are not converted and
-                     take no memory; positions are always read.
-        region       bounds xlo, xhi, ylo, yhi, zlo, zhi, or three pairs; None where there is no bound. Absolute coordinates; the
-                     bounds belong to the region.
-        stride       n keeps particles whose id is a multiple of n, or each n-th row without ids; at least 1
-        coordinates  "absolute" (default), "unwrapped" by the image counts, or "scaled", in units of the box
-        precision    "double" (default), or "single": points as 32-bit floats
-        origin       a point that is subtracted from the points before any rounding; shape (3,)
-        sort         True: rows in the order of their ids
-        threads      0 (default): one per core
-        progress     is called with fractions from 0 to 1; it returns False to stop
+        frame           its number, from 0, or from the end: -1 (default) is the last one
+        columns         names of arrays or columns, as a list or one text: "id v", ["id", "vx"]; None: all. Others are not converted and
+                        take no memory; positions are always read.
+        region          bounds xlo, xhi, ylo, yhi, zlo, zhi of the particles, which belong to the region, in absolute coordinates;
+                        or three pairs; None where there is no bound; of dumps and data files
+        stride          n keeps particles whose id is a multiple of n, or each n-th row without ids; 1 (default): all; of dumps and
+                        data files
+        coordinates     positions in the box, also moved by the image counts (unwrapped), or in units of the box (scaled):
+                        "absolute" (default), "unwrapped" or "scaled"; of dumps and data files
+        precision       points as 64-bit or 32-bit floats: "double" (default) or "single"; of dumps
+        origin          a point that is subtracted from the points before any rounding; shape (3,)
+        sort            rows in the order of their ids; of dumps and data files
+        periodic_lines  drawing of contacts and bonds across periodic faces: to the nearest image, or from end to end as the file
+                        has them: "minimum_image" (default), "split" or "as_written"; of dumps of local data, restart files and data
+                        files
+        threads         number of threads; 0 (default): one per core
+        progress        is called with fractions from 0 to 1; it returns False to stop
 
         region, stride, coordinates and sort are for particles of dumps and data files. Raises vtkgranular.Error with path, line
         and column; vtkgranular.ArgumentError for what cannot be, among them a column that there is not; IndexError for a frame that
         there is not.
         """
-        return self._part(self[frame].number, columns=columns, region=region, stride=stride, coordinates=coordinates,
-                          precision=precision, origin=origin, sort=sort, threads=threads).read(progress)
+        given = locals()
+        return self._part(self[frame].number, columns=columns, **{option.name: given[option.name] for option in FRAME}).read(progress)
 
     def _part(self, number: int, **request: Any) -> Frame:
         """A part of a frame, which is read when it is asked for."""
@@ -777,7 +786,8 @@ class Run(_Frames):
         """Returns the ParaView reader of the same files: see vtkgranular.reader."""
         from . import reader
 
-        own = {name: words_of(self._options[option]) for option, name in _PROPERTIES.items() if option in self._options}
+        own = {option.property: words_of(self._options[option.name]) for option in FILES
+               if option.type in ("text", "names") and option.name in self._options}
         return reader(self._paths, dt=self._options.get("dt"), **{**own, **properties})
 
     def close(self) -> None:
@@ -819,19 +829,26 @@ def _region(given: Any) -> list[float]:
 
 def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, kind: str | None = None,
          column_names: str | Iterable[str] = "", preset: str = "", column_map: str | Iterable[str] = "", atom_style: str = "",
-         repeated_steps: str = "auto", threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
+         boundary: str = "", history_layout: str = "automatic", repeated_steps: str = "auto", threads: int = 0,
+         progress: Callable[[float], Any] | None = None) -> Run:
     """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
 
     paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files. Dumps in every form, contacts
                     and bonds (dump local), restart files, data files, decompositions and Euler cells are told apart by their contents.
-    dt              the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the files
-                    hold times.
     kind            "dump", "local", "restart", "data", "euler" or "decomposition"; None (default): as the contents say
-    column_names    of binary dumps that do not name their columns: "id type x y z vx vy vz", or a list
-    preset          the order of the columns of contacts and bonds, by its name; column_map: their names
-    atom_style      of data files that do not name it
-    repeated_steps  the meaning of a timestep in several files: "auto", "merge" (pieces of a frame) or "last" (a restarted run)
-    threads         0 (default): one per core
+    dt              time of one timestep, greater than 0, in the unit of the run; default: times are timesteps, unless the files
+                    hold times
+    column_names    columns of binary dumps that do not name them: "id type x y z vx vy vz"; or a list
+    preset          order of the columns of contacts and bonds, by its name
+    column_map      names of the columns of contacts and bonds, one for each column; or a list
+    atom_style      atom style of data files that do not name it
+    boundary        boundaries of the box in data files, which do not hold them: "p p f"; empty: axes that particles have crossed
+                    are periodic
+    history_layout  program that wrote the history of bonds in restart files, which says what its values are: "automatic" (default),
+                    "numbered", "with_bonds", "pfm", "flexible_fibers" or "flexible_fibers_damage"
+    repeated_steps  meaning of a timestep in several files: pieces of one frame (merge), or a run that was restarted (last): "auto"
+                    (default), "merge" or "last"
+    threads         number of threads; 0 (default): one per core
     progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
 
     The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
@@ -839,8 +856,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     with path, line and column if the files cannot be read, ValueError for a choice that there is not. Remarks that are no errors
     are warnings.
     """
-    given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
-    options = {"dt": dt, "kind": kind, "column_names": column_names, "preset": preset, "column_map": column_map,
-               "atom_style": atom_style, "repeated_steps": repeated_steps, "threads": threads}
-    absolute = [os.path.abspath(os.fsdecode(path)) for path in given]
-    return Run(absolute, {name: value for name, value in options.items() if value not in (None, "")}, progress)
+    given = locals()
+    options = {name: given[name] for name in ("kind", *(option.name for option in FILES)) if given[name] not in (None, "")}
+    files = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
+    return Run([os.path.abspath(os.fsdecode(path)) for path in files], options, progress)

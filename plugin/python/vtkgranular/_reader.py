@@ -9,10 +9,8 @@ from typing import Any, Iterable
 from ._errors import expect_utf8, raised
 from ._files import files
 from ._library import shown
+from ._options import READERS
 from ._plugin import expect_plugin, has_plugin
-
-_READERS = ("GranularDumpReader", "GranularLocalReader", "GranularRestartReader", "GranularDataFileReader",
-            "GranularDecompositionReader", "GranularEulerReader")
 
 
 def _names(paths: Iterable[str], remote: bool) -> list[str]:
@@ -36,12 +34,12 @@ def _find_reader(name: str) -> str:
     """The reader that recognises a file by its first bytes."""
     from paraview import servermanager
 
-    for reader in _READERS:
+    for reader in READERS:
         # not by NewProxy of the proxy manager, whose result Python never frees
         proxy = getattr(servermanager.sources, reader)(no_update=True)
         if servermanager.vtkSMReaderFactory.CanReadFile(name, proxy.SMProxy):
             return reader
-    return _READERS[0]  # which says what it expected
+    return READERS[0]  # which says what it expected
 
 
 def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None,

@@ -16,14 +16,6 @@ using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularRestartReader);
 
-namespace
-{
-/**
- * The layout as the core counts, by HistoryLayoutType.
- */
-constexpr int Layouts[] = { granular::automatic_history, granular::numbered_history, 0, 1, 2, 3 };
-}
-
 //------------------------------------------------------------------------------
 struct vtkGranularRestartReader::Internals : vtkGranularSeriesReader::Internals
 {
@@ -37,7 +29,7 @@ struct vtkGranularRestartReader::Internals : vtkGranularSeriesReader::Internals
 
   void SetOptions(granular::RunOptions& options) const override
   {
-    options.history_layout = Layouts[this->Reader->HistoryLayout];
+    options.history_layout = this->Reader->HistoryLayout;
   }
 
   void SetRequest(granular::Request& request) const override

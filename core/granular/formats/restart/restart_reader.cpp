@@ -42,6 +42,7 @@ constexpr std::string_view pfm[] = { "force_normalx", "force_normaly", "force_no
 constexpr std::string_view fibers[] = { pfm[0], pfm[1], pfm[2], pfm[3], pfm[4], pfm[5], pfm[6],
   pfm[7], pfm[8], pfm[9], pfm[10], pfm[11], "equilibrium_length", "damage" };
 
+constexpr int first_history = 2; ///< the number of the first of them
 constexpr HistoryLayout layouts[] = {
   { "WITH-BONDS", "", std::span(pfm).first(12) },
   { "PFM", "LIGGGHTS-PFM", pfm },
@@ -55,7 +56,7 @@ const HistoryLayout* find_history_layout(
   int layout, std::string_view version, std::int64_t values) noexcept
 {
   const HistoryLayout* found = nullptr;
-  int place = 0;
+  int place = first_history;
   for (const HistoryLayout& candidate : layouts)
   {
     const bool asked = layout == automatic_history || layout == place++;
@@ -89,11 +90,11 @@ void add_notices(const BondCounts& counts, const Where& where, Notices& notices)
 /// A layout that was asked for, and is not that of the file.
 void check_layout(int asked, std::int64_t values, const Where& where, Notices& notices)
 {
-  if (asked < 0 || asked >= std::ssize(layouts) || values == 0)
+  if (asked < first_history || asked - first_history >= std::ssize(layouts) || values == 0)
   {
     return;
   }
-  const HistoryLayout& layout = layouts[asked];
+  const HistoryLayout& layout = layouts[asked - first_history];
   if (std::ssize(layout.columns) != values)
   {
     notices.push_back({ where,

@@ -29,13 +29,13 @@ struct RestartColumns
 RestartColumns find_restart_columns(
   const ByteSource& source, const RestartLayout& layout, Notices& notices, Progress& progress);
 
-/// Layouts of the history values of a bond have numbers: 0: WITH-BONDS (12 values), 1: PFM (13), 2: Flexible_Fibers until 2021
-/// (13), 3: Flexible_Fibers and SEAICE (14).
+/// Layouts of the history values of a bond have numbers: 2: WITH-BONDS (12 values), 3: PFM (13), 4: Flexible_Fibers until 2021
+/// (13), 5: Flexible_Fibers and SEAICE (14).
 ///
 /// Instead of a number: the layout with as many values, of two that whose word is in the version, else the last.
-inline constexpr int automatic_history = -1;
+inline constexpr int automatic_history = 0;
 /// Instead of a number: history1, history2, ...
-inline constexpr int numbered_history = -2;
+inline constexpr int numbered_history = 1;
 
 /// Returns the arrays of bonds: id1 id2 btype and the history, which is numbered where the layout has another number of values.
 /// version: of the program, from the file's header.

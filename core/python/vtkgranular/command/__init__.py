@@ -10,7 +10,7 @@ import sys
 import warnings
 from typing import Any, Iterator, Sequence
 
-from .._library import KINDS
+from .._options import FILES, KINDS, Option
 
 # Each has a module of its name, with the functions `options(parser)` and `run(arguments)`.
 COMMANDS = {
@@ -39,16 +39,29 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 def add_reading(parser: argparse.ArgumentParser) -> None:
     """Adds the options of vtkgranular.open."""
     group = parser.add_argument_group("reading")
-    group.add_argument("--dt", type=float, metavar="T", help="time of one timestep, in the unit of the run (default: times are timesteps)")
-    group.add_argument("--kind", choices=KINDS,
-                       help="what the files are (default: as their contents say)")
-    group.add_argument("--column-names", metavar="NAMES", default="", help="columns of binary dumps that do not name them: 'id type x y z'")
-    group.add_argument("--preset", default="", help="order of the columns of contacts and bonds, by its name")
-    group.add_argument("--column-map", metavar="NAMES", default="", help="their names, one for each column")
-    group.add_argument("--atom-style", default="", help="atom style of data files that do not name it")
-    group.add_argument("--repeated-steps", choices=("auto", "merge", "last"), default="auto",
-                       help="a timestep in several files: pieces of a frame (merge), or a run that was restarted (last)")
-    group.add_argument("--threads", type=int, default=0, metavar="N", help="threads (default: one per core)")
+    group.add_argument("--kind", choices=KINDS, help="what the files are (default: as their contents say)")
+    for option in FILES:
+        add_option(group, option)
+
+
+def add_option(group: Any, option: Option) -> None:
+    """Adds an option of the library; None stands for its default."""
+    more: dict[str, Any] = {"flag": {"action": "store_true", "default": None}, "choice": {"choices": option.choices},
+                            "number": {"type": float, "metavar": "T"}, "count": {"type": int, "metavar": "N"},
+                            "threads": {"type": int, "metavar": "N"}, "names": {"metavar": "NAMES"},
+                            "region": {"type": region, "metavar": "BOUNDS"}}.get(option.type, {})
+    group.add_argument("--" + option.name.replace("_", "-"), help=option.text.replace("%", "%%"), **more)
+
+
+def region(text: str) -> list[float | None]:
+    """Returns the six bounds in a text, None where it has -."""
+    words = text.replace(",", " ").split()
+    if len(words) != 6:
+        raise argparse.ArgumentTypeError(f"expected six bounds, xlo xhi ylo yhi zlo zhi, with - where there is no bound, got {text!r}")
+    try:
+        return [None if word == "-" else float(word) for word in words]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def add_frames(parser: argparse.ArgumentParser) -> None:
@@ -60,9 +73,7 @@ def open_run(arguments: argparse.Namespace) -> Any:
     """Returns the run of the files."""
     import vtkgranular
 
-    return vtkgranular.open(arguments.files, dt=arguments.dt, kind=arguments.kind, column_names=arguments.column_names,
-                         preset=arguments.preset, column_map=arguments.column_map, atom_style=arguments.atom_style,
-                         repeated_steps=arguments.repeated_steps, threads=arguments.threads)
+    return vtkgranular.open(arguments.files, kind=arguments.kind, **{option.name: getattr(arguments, option.name) for option in FILES})
 
 
 @contextlib.contextmanager

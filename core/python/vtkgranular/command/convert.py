@@ -9,8 +9,9 @@ from typing import Any, Iterable
 
 from .._inline import put_inline
 from .._library import shown
+from .._options import FRAME
 from .._whole_file import whole_file
-from . import add_frames, add_reading, chosen, open_run
+from . import add_frames, add_option, add_reading, chosen, open_run
 from .progress import Bar
 from .info import tell_faults
 
@@ -18,6 +19,9 @@ MORE = """The ending of OUT chooses: .npz (numpy), .csv, .vtp, .vtu and .vtkhdf 
 .decomposition are those of contacts, cells and subdomains; .bin is a binary dump; .dump, .lammpstrj and the like are text dumps, compressed where .gz or \
 .zst follows. `*` in OUT stands for the timestep and makes a file a frame. Each file appears when it is complete; until then, and after \
 an error, an old one is as it was. A file of the run is replaced last, and only by the same kind of file."""
+
+# --threads is one of all commands, and numbers have the precision of the new file.
+_PART = [option for option in FRAME if option.name not in ("threads", "precision", "origin")]
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -28,10 +32,8 @@ def options(parser: argparse.ArgumentParser) -> None:
     add_reading(parser)
     part = parser.add_argument_group("the part to write")
     part.add_argument("--columns", metavar="NAMES", default="", help="columns in their order: 'id type x y z vx vy vz' (default: all)")
-    part.add_argument("--stride", type=int, default=1, metavar="N", help="particles whose id is a multiple of N")
-    part.add_argument("--region", metavar="BOUNDS", help="'xlo xhi ylo yhi zlo zhi', with - where there is no bound")
-    part.add_argument("--coordinates", choices=("absolute", "unwrapped", "scaled"), help="of .npz, .csv and files of VTK")
-    part.add_argument("--sort", action="store_true", help="rows in the order of their ids")
+    for option in _PART:
+        add_option(part, option)
     form = parser.add_argument_group("the form of dumps")
     form.add_argument("--style", choices=("atom", "custom", "local", "euler", "decomposition"), help="(default: by data and ending)")
     form.add_argument("--dialect", default="", help="LIGGGHTS or LAMMPS; of subdomains PUBLIC or INL; of cells LIGGGHTS or Wide")
@@ -61,18 +63,6 @@ def _expect_no_input(paths: list[str], files: list[str]) -> None:
         state = os.stat(path)
         if (state.st_dev, state.st_ino) in read:
             raise ValueError(f"{shown(path)}: expected another file to write, got one that is read")
-
-
-def _region(text: str | None) -> list[float | None] | None:
-    if text is None:
-        return None
-    words = text.replace(",", " ").split()
-    if len(words) != 6:
-        raise ValueError(f"--region: expected six bounds, xlo xhi ylo yhi zlo zhi, got {text!r}")
-    try:
-        return [None if word == "-" else float(word) for word in words]
-    except ValueError as error:
-        raise ValueError(f"--region: {error}") from None
 
 
 def _write_npz(frame: Any, stream: Any, columns: list[str] | None) -> None:
@@ -170,8 +160,7 @@ def run(arguments: argparse.Namespace) -> None:
         _expect_output(arguments.out, opened.files)
         tell_faults(opened)
         numbers = chosen(opened, arguments.frames)
-        asked = {"stride": arguments.stride, "region": _region(arguments.region), "sort": arguments.sort,
-                 "coordinates": arguments.coordinates or "absolute", "threads": arguments.threads}
+        asked = {"threads": arguments.threads, **{option.name: getattr(arguments, option.name) for option in _PART}}
         durable = {"auto": None, "on": True, "off": False}[arguments.durable]
         words = arguments.columns.replace(",", " ").split()
         if ending in _ONE_FRAME_A_FILE:
@@ -184,8 +173,8 @@ def run(arguments: argparse.Namespace) -> None:
             return
         if arguments.coordinates:
             raise ValueError(f"{shown(arguments.out)}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")
-        part = numbers if asked["stride"] == 1 and not asked["region"] else \
+        part = numbers if arguments.stride in (None, 1) and not arguments.region else \
             (opened._part(number, **asked) for number in numbers._numbers())
         write(arguments.out, part, style=arguments.style or "", dialect=arguments.dialect, columns=" ".join(words), numbers=arguments.numbers,
-              label=arguments.label, scaled=not arguments.unscaled, image=arguments.image, sort=arguments.sort,
-              threads=arguments.threads, progress=bar.show, durable=durable)
+              label=arguments.label, scaled=not arguments.unscaled, image=arguments.image, sort=bool(arguments.sort),
+              threads=arguments.threads or 0, progress=bar.show, durable=durable)

@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is made of core/granular/runs/options.toml, the table of kinds of files and options of readers: the shared properties in xml, the
+structs of granular.h and what fills them, the tables of the Python package, the keywords and docstrings of vtkgranular.open and
+Run.read. `options.py ROOT write` makes it; without `write` says where it is not as it should be."""
+import json
+import os
+import re
+import sys
+import textwrap
+import tomllib
+
+import tree
+
+TABLE = "core/granular/runs/options.toml"
+WIDTH_CPP, WIDTH_PYTHON, WIDTH_XML = 98, 132, 110
+
+# ---- types: in C, in C++ from C, in Python, in the panel ---------------------------------------------
+C_TYPES = {"text": "const char* {}", "names": "const char* {}", "choice": "int {}", "flag": "int {}", "count": "int64_t {}",
+           "threads": "int {}",            "number": "double {}", "point": "double {}[3]", "region": "double {}[6]"}
+FROM_C = {"text": "made.{core} = text_of(given.{c});", "names": "made.{core} = text_of(given.{c});",
+          "choice": 'take_choice(made.{core}, given.{c}, {most}, "{c}");', "flag": "made.{core} = given.{c} != 0;",
+          "count": 'made.{core} = at_least({minimum}, given.{c}, "{c}");',
+          "threads": "made.{core} = given.{c} > 0 ? given.{c} : available_cores();",
+          "point": "std::copy_n(given.{c}, 3, made.{core}.begin());", "region": "std::copy_n(given.{c}, 6, made.{core}.begin());"}
+PYTHON_TYPES = {"text": "str", "names": "str | Iterable[str]", "choice": "str", "flag": "bool", "count": "int", "threads": "int",
+                "number": "float | None", "point": "Any", "region": "Any"}
+PYTHON_MORE = {"names": "; or a list", "point": "; shape (3,)", "region": "; or three pairs; None where there is no bound"}
+C_MORE = {"region": "; an axis with lo > hi (default) is not restricted; no NaN"}
+XML_TAGS = {"text": "String", "names": "String", "choice": "Int", "flag": "Int", "count": "Int", "threads": "Int",
+            "number": "Double", "point": "Double", "region": "Double"}
+XML_DEFAULTS = {"text": "", "names": "", "point": "0 0 0", "region": "1 -1 1 -1 1 -1"}
+
+
+def load(root):
+    """The table, with what every row has."""
+    table = tomllib.loads(tree.read(root, TABLE))
+    for option in table["option"]:
+        option.setdefault("c", option["name"])
+        option.setdefault("core", option["c"])
+        option.setdefault("kinds", [])
+        option.setdefault("choices", [])
+        option.setdefault("default", option["choices"][0] if option["choices"] else None if option["type"] in ("point", "region", "number")
+                          else "" if option["type"] in ("text", "names") else False if option["type"] == "flag" else 0)
+    return table
+
+
+def options_of(table, scope):
+    return [option for option in table["option"] if option["of"] in (scope, "all")]
+
+
+def text_of(table, option, shown, more):
+    """The sentence for Python and C: with the choices, and the kinds that have what is chosen of a frame."""
+    text = option["text"] + more.get(option["type"], "")
+    if option["choices"]:
+        text += ": " + choices_text(option["choices"], shown)
+    files = [kind["files"] for kind in table["kind"] if kind["name"] in option["kinds"]]
+    return text + ("; of " + " and ".join(", ".join(files).rsplit(", ", 1)) if files and option["of"] == "frame" else "")
+
+
+def choices_text(choices, shown):
+    """Lists choices, of which the first is the default."""
+    words = [shown(i, choice) for i, choice in enumerate(choices)]
+    words[0] += " (default)"
+    return ", ".join(words[:-1]) + " or " + words[-1]
+
+
+# ---- C ---------------------------------------------------------------------------------------------
+def c_comment(text):
+    lines = textwrap.wrap(text, WIDTH_CPP - 8, break_on_hyphens=False)
+    return ["  /* " + lines[0]] + ["   * " + line for line in lines[1:]]
+
+
+def c_fields(table, scope):
+    lines = []
+    for option in options_of(table, scope):
+        comment = c_comment(text_of(table, option, lambda i, choice: f"{i} {choice}", C_MORE))
+        field = C_TYPES[option["type"]].format(option["c"])
+        lines += [*comment[:-1], comment[-1] + " */", "  " + (option["c_type"] + field[field.index(" "):] if "c_type" in option else field) + ";"]
+    return lines
+
+
+def c_kinds(table):
+    rows = sorted(table["kind"], key=lambda kind: kind["number"])
+    words = [f"  GRANULAR_KIND_{kind['c']} = {kind['number']}" + ("," if kind is not rows[-1] else "") for kind in rows]
+    return [f"{word:<33} /* {kind['text']} */" for word, kind in zip(words, rows)]
+
+
+def c_defaults(table, scope, struct):
+    lines = []
+    for option in options_of(table, scope):
+        if option["type"] in ("count", "number") and option["default"]:
+            lines.append(f"      {struct}->{option['c']} = {option['default']:g};")
+        elif option["type"] == "region":
+            lines += [f"      const double {option['c']}[] = {{ 1, -1, 1, -1, 1, -1 }};",
+                      f"      std::memcpy({struct}->{option['c']}, {option['c']}, sizeof({option['c']}));"]
+    return lines
+
+
+def from_c(table, scope):
+    return ["  " + FROM_C[option["type"]].format(**option, most=len(option["choices"]) - 1) for option in options_of(table, scope)
+            if option["type"] in FROM_C]
+
+
+# ---- Python ----------------------------------------------------------------------------------------
+def python_tables(table):
+    def row(option):
+        words = ", ".join(json.dumps(option[key]) for key in ("name", "property", "c", "type"))
+        default = json.dumps(option["default"]) if isinstance(option["default"], str) else repr(option["default"])
+        return [f"    Option({words}, {default},", f"           {tuple_of(option['choices'])},", f"           {json.dumps(option['text'])}),"]
+
+    def tuple_of(words):
+        return "(" + ", ".join(map(json.dumps, words)) + ")"
+
+    def rows(scope):
+        return [line for option in options_of(table, scope) for line in row(option)]
+
+    kinds = sorted(table["kind"], key=lambda kind: kind["number"])
+    return ["# SPDX-License-Identifier: BSD-3-Clause",
+            '"""The kinds of files, and the options of vtkgranular.open and Run.read: made of core/granular/runs/options.toml by',
+            'tests/lint/options.py."""',
+            "from __future__ import annotations", "", "from typing import Any, NamedTuple", "", "",
+            "class Option(NamedTuple):", "    name: str", "    property: str  #: of ParaView's readers", "    c: str  #: in the structs of granular.h",
+            "    type: str", "    default: Any", "    choices: tuple[str, ...]", "    text: str", "", "",
+            f"KINDS = {tuple_of([kind['name'] for kind in kinds])}",
+            "#: In the order in which they are asked whether a file is theirs.",
+            f"READERS = {tuple_of([kind['reader'] for kind in table['kind'][:3]])[:-1]},",
+            f"           {tuple_of([kind['reader'] for kind in table['kind'][3:]])[1:]}",
+            "FILES = (", *rows("files"), ")", "FRAME = (", *rows("frame"), ")"]
+
+
+def python_signature(table, scope, left_out=()):
+    words = [f"{option['name']}: {PYTHON_TYPES[option['type']]} = {option['default']!r}".replace("'", '"')
+             for option in options_of(table, scope) if option["name"] not in left_out]
+    return words
+
+
+def python_docs(table, scope, indent, width):
+    lines = []
+    for option in options_of(table, scope):
+        text = text_of(table, option, lambda i, choice: f'"{choice}"', PYTHON_MORE)
+        first = " " * indent + f"{option['name']:<{width}}"
+        lines += textwrap.wrap(text, WIDTH_PYTHON, initial_indent=first, subsequent_indent=" " * (indent + width), break_on_hyphens=False)
+    return lines
+
+
+# ---- the panel -------------------------------------------------------------------------------------
+def xml_property(option):
+    tag = XML_TAGS[option["type"]]
+    kind = "Int" if "entries" in option else tag
+    name = option["property"]
+    default = option.get("default_value", 0 if kind == "Int" and option["choices"] or "entries" in option else
+                         XML_DEFAULTS.get(option["type"], option["default"]))
+    default = option["strings"][0] if "strings" in option else f"{default:g}" if isinstance(default, float) else str(int(default)) if isinstance(default, bool) else default
+    count = {"point": 3, "region": 6}.get(option["type"], 1)
+    attributes = [f'name="{name}"', f'command="Set{name}"', f'number_of_elements="{count}"', f'default_values="{default}"', 'animateable="0"']
+    if option.get("advanced"):
+        attributes.append('panel_visibility="advanced"')
+    head = f"      <{kind}VectorProperty "
+    lines = ["<!-- SPDX-License-Identifier: BSD-3-Clause -->", f"<!-- Made of {TABLE} by tests/lint/options.py. -->",
+             head + ("\n" + " " * len(head)).join(attributes) + ">"]
+    entries = option.get("entries") or ["".join(word.capitalize() for word in choice.split("_")) for choice in option["choices"]]
+    if entries:
+        values = option.get("values", range(len(entries)))
+        lines += ['        <EnumerationDomain name="enum">',
+                  *[f'          <Entry text="{entry}" value="{value}"/>' for entry, value in zip(entries, values)], "        </EnumerationDomain>"]
+    elif "strings" in option:
+        lines += ['        <StringListDomain name="styles">', *[f'          <String value="{word}"/>' for word in option["strings"]],
+                  "        </StringListDomain>"]
+    elif option["type"] == "flag":
+        lines.append('        <BooleanDomain name="bool"/>')
+    elif "minimum" in option:
+        lines.append(f'        <{kind}RangeDomain name="range" min="{option["minimum"]:g}"/>')
+    text = textwrap.wrap(" ".join(option["page"].split()), WIDTH_XML, initial_indent=" " * 10, subsequent_indent=" " * 10,
+                         break_long_words=False, break_on_hyphens=False)
+    return [*lines, "        <Documentation>", *text, "        </Documentation>", f"      </{kind}VectorProperty>"]
+
+
+# ---- files -----------------------------------------------------------------------------------------
+def between(path, text, begin, end, lines):
+    """The text with other lines between two that match."""
+    match = re.search(f"({begin})(.*?)({end})", text, re.DOTALL | re.MULTILINE)
+    if not match:
+        raise SystemExit(f"{path}: expected lines like {begin!r} and {end!r}")
+    return text[:match.end(1)] + "\n" + "".join(line + "\n" for line in lines) + text[match.start(match.lastindex):]
+
+
+def signature(path, text, name, words):
+    """The text with other keywords in the signature of a function, before `progress`."""
+    first = {"open": "kind", "read": "columns"}[name]
+    match = re.search(rf"( *)def {name}\(((?:(?!def ).)*?\b{first}: .*?)(progress: Callable)", text, re.DOTALL)
+    kept = [word.strip() for word in re.split(r",\s*(?![^\[]*\])", match[2])]
+    kept = kept[:next(i for i, word in enumerate(kept) if word.startswith(first + ":")) + 1]
+    head = f"{match[1]}def {name}("
+    indent = " " * len(head)
+    line, lines = head, []
+    for word in [*kept, *words]:
+        if len(line) + len(word) + 1 > WIDTH_PYTHON:
+            lines.append(line.rstrip())
+            line = indent
+        line += word + ", "
+    if len(line) + 70 > WIDTH_PYTHON:
+        lines.append(line.rstrip())
+        line = indent
+    return text[:match.start()] + "\n".join([*lines, line]) + text[match.start(3):]
+
+
+def made(root):
+    """{path: text} of all that comes from the table."""
+    table = load(root)
+    files = {f"xml/shared/{option['property']}.xml": "\n".join(xml_property(option)) + "\n" for option in table["option"]}
+    files["core/python/vtkgranular/_options.py"] = "\n".join(python_tables(table)) + "\n"
+    regions = {
+        "core/c/granular.h": [
+            (r"^  GRANULAR_KIND_AUTOMATIC = -1,$", r"^\} granular_kind;$", c_kinds(table)),
+            (r"^  granular_kind kind; [^\n]*\*/$", r"^  granular_progress progress;", c_fields(table, "files")),
+            (r"^  int points; [^\n]*\*/$", r"^  granular_progress progress;", c_fields(table, "frame"))],
+        "core/c/run.cpp": [(r"^  RunOptions made;$", r"^  return made;$", from_c(table, "files")),
+                           (r"^void take\(Request& made, const granular_request& given\)\n\{$", r"^\}$", from_c(table, "frame"))],
+        "core/c/granular_c.cpp": [(r"^      options->kind = GRANULAR_KIND_AUTOMATIC;$", r"^    \}$", c_defaults(table, "files", "options")),
+                                  (r"^      request->points = 1;$", r"^    \}$", c_defaults(table, "frame", "request"))],
+        "core/python/vtkgranular/_run.py": [
+            (r"^    kind            \"dump\".*?says?$", r"^    progress        is called", python_docs(table, "files", 4, 16)),
+            (r"^                        take no memory; positions are always read\.$", r"^        progress        is called", python_docs(table, "frame", 8, 16))],
+    }
+    for path, parts in regions.items():
+        text = tree.read(root, path)
+        for begin, end, lines in parts:
+            text = between(path, text, begin, end, lines)
+        files[path] = text
+    path = "core/python/vtkgranular/_run.py"
+    files[path] = signature(path, files[path], "open", python_signature(table, "files", ("dt",)))
+    files[path] = signature(path, files[path], "read", python_signature(table, "frame"))
+    return files
+
+
+def check(root):
+    for path, text in made(root).items():
+        there = tree.read(root, path) if os.path.exists(os.path.join(root, path)) else ""
+        if there != text:
+            lines = zip(there.splitlines() + [""], text.splitlines() + [""])
+            line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), 1)
+            yield path, line, f"is not what {TABLE} says: python3 tests/lint/options.py . write"
+
+
+if __name__ == "__main__":
+    if sys.argv[2:] == ["write"]:
+        for name, content in made(sys.argv[1]).items():
+            with open(os.path.join(sys.argv[1], name), "w", encoding="utf-8") as stream:
+                stream.write(content)
+    else:
+        tree.run(check)
