@@ -30,8 +30,10 @@ without ParaView (GRANULAR_PARAVIEW=OFF) or the core alone (GRANULAR_BUILD_PLUGI
     "${PROJECT_SOURCE_DIR}/plugin/servermanager"
     "${PROJECT_SOURCE_DIR}/plugin/views")
   list(APPEND granular_module_targets Granular::vtkGranularServerManager Granular::vtkGranularViews)
-  include(cmake/server_manager_xml.cmake)
-  granular_expand_xmls(granular_xmls)
+  include(cmake/reader_options.cmake)
+  granular_make_options(xml "${CMAKE_BINARY_DIR}/xml")
+  file(GLOB granular_xmls RELATIVE "${PROJECT_SOURCE_DIR}/xml" "${PROJECT_SOURCE_DIR}/xml/*.xml")
+  list(TRANSFORM granular_xmls PREPEND "${CMAKE_BINARY_DIR}/xml/")
 else()
   # VTK 9.4 and later link an optional module only if it is asked for here.
   granular_find(VTK 9.1

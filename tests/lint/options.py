@@ -1,22 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is made of core/granular/runs/options.toml, the table of kinds of files and options of readers: the shared properties in xml, the
-structs of granular.h and what fills them, the tables of the Python package, the keywords and docstrings of vtkgranular.open and
-Run.read. `options.py ROOT write` makes it; without `write` says where it is not as it should be."""
-import json
+"""What is made of core/granular/runs/options.toml, the table of kinds of files and options of readers, in files that have more: the
+structs of granular.h and what fills them, the keywords and docstrings of vtkgranular.open and Run.read. `options.py ROOT write` makes
+it; without `write` says where it is not as it should be. CMake makes the rest by cmake/reader_options.py."""
 import os
 import re
 import sys
 import textwrap
-import tomllib
 
 import tree
 
-TABLE = "core/granular/runs/options.toml"
-WIDTH_CPP, WIDTH_PYTHON, WIDTH_XML = 98, 132, 110
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "cmake"))
+from reader_options import TABLE, WIDTH, load, options_of  # noqa: E402
+
 
 # ---- types: in C, in C++ from C, in Python, in the panel ---------------------------------------------
 C_TYPES = {"text": "const char* {}", "names": "const char* {}", "choice": "int {}", "flag": "int {}", "count": "int64_t {}",
-           "threads": "int {}",            "number": "double {}", "point": "double {}[3]", "region": "double {}[6]"}
+           "threads": "int {}", "number": "double {}", "point": "double {}[3]", "region": "double {}[6]"}
 FROM_C = {"text": "made.{core} = text_of(given.{c});", "names": "made.{core} = text_of(given.{c});",
           "choice": 'take_choice(made.{core}, given.{c}, {most}, "{c}");', "flag": "made.{core} = given.{c} != 0;",
           "count": 'made.{core} = at_least({minimum}, given.{c}, "{c}");',
@@ -26,26 +25,6 @@ PYTHON_TYPES = {"text": "str", "names": "str | Iterable[str]", "choice": "str", 
                 "number": "float | None", "point": "Any", "region": "Any"}
 PYTHON_MORE = {"names": "; or a list", "point": "; shape (3,)", "region": "; or three pairs; None where there is no bound"}
 C_MORE = {"region": "; an axis with lo > hi (default) is not restricted; no NaN"}
-XML_TAGS = {"text": "String", "names": "String", "choice": "Int", "flag": "Int", "count": "Int", "threads": "Int",
-            "number": "Double", "point": "Double", "region": "Double"}
-XML_DEFAULTS = {"text": "", "names": "", "point": "0 0 0", "region": "1 -1 1 -1 1 -1"}
-
-
-def load(root):
-    """The table, with what every row has."""
-    table = tomllib.loads(tree.read(root, TABLE))
-    for option in table["option"]:
-        option.setdefault("c", option["name"])
-        option.setdefault("core", option["c"])
-        option.setdefault("kinds", [])
-        option.setdefault("choices", [])
-        option.setdefault("default", option["choices"][0] if option["choices"] else None if option["type"] in ("point", "region", "number")
-                          else "" if option["type"] in ("text", "names") else False if option["type"] == "flag" else 0)
-    return table
-
-
-def options_of(table, scope):
-    return [option for option in table["option"] if option["of"] in (scope, "all")]
 
 
 def text_of(table, option, shown, more):
@@ -66,7 +45,7 @@ def choices_text(choices, shown):
 
 # ---- C ---------------------------------------------------------------------------------------------
 def c_comment(text):
-    lines = textwrap.wrap(text, WIDTH_CPP - 8, break_on_hyphens=False)
+    lines = textwrap.wrap(text, WIDTH - 8, break_on_hyphens=False)
     return ["  /* " + lines[0]] + ["   * " + line for line in lines[1:]]
 
 
@@ -75,7 +54,9 @@ def c_fields(table, scope):
     for option in options_of(table, scope):
         comment = c_comment(text_of(table, option, lambda i, choice: f"{i} {choice}", C_MORE))
         field = C_TYPES[option["type"]].format(option["c"])
-        lines += [*comment[:-1], comment[-1] + " */", "  " + (option["c_type"] + field[field.index(" "):] if "c_type" in option else field) + ";"]
+        if "c_type" in option:
+            field = option["c_type"] + field[field.index(" "):]
+        lines += [*comment[:-1], comment[-1] + " */", f"  {field};"]
     return lines
 
 
@@ -102,30 +83,6 @@ def from_c(table, scope):
 
 
 # ---- Python ----------------------------------------------------------------------------------------
-def python_tables(table):
-    def row(option):
-        words = ", ".join(json.dumps(option[key]) for key in ("name", "property", "c", "type"))
-        default = json.dumps(option["default"]) if isinstance(option["default"], str) else repr(option["default"])
-        return [f"    Option({words}, {default},", f"           {tuple_of(option['choices'])},", f"           {json.dumps(option['text'])}),"]
-
-    def tuple_of(words):
-        return "(" + ", ".join(map(json.dumps, words)) + ")"
-
-    def rows(scope):
-        return [line for option in options_of(table, scope) for line in row(option)]
-
-    kinds = sorted(table["kind"], key=lambda kind: kind["number"])
-    return ["# SPDX-License-Identifier: BSD-3-Clause",
-            '"""The kinds of files, and the options of vtkgranular.open and Run.read: made of core/granular/runs/options.toml by',
-            'tests/lint/options.py."""',
-            "from __future__ import annotations", "", "from typing import Any, NamedTuple", "", "",
-            "class Option(NamedTuple):", "    name: str", "    property: str  #: of ParaView's readers", "    c: str  #: in the structs of granular.h",
-            "    type: str", "    default: Any", "    choices: tuple[str, ...]", "    text: str", "", "",
-            f"KINDS = {tuple_of([kind['name'] for kind in kinds])}",
-            "#: In the order in which they are asked whether a file is theirs.",
-            f"READERS = {tuple_of([kind['reader'] for kind in table['kind'][:3]])[:-1]},",
-            f"           {tuple_of([kind['reader'] for kind in table['kind'][3:]])[1:]}",
-            "FILES = (", *rows("files"), ")", "FRAME = (", *rows("frame"), ")"]
 
 
 def python_signature(table, scope, left_out=()):
@@ -139,40 +96,10 @@ def python_docs(table, scope, indent, width):
     for option in options_of(table, scope):
         text = text_of(table, option, lambda i, choice: f'"{choice}"', PYTHON_MORE)
         first = " " * indent + f"{option['name']:<{width}}"
-        lines += textwrap.wrap(text, WIDTH_PYTHON, initial_indent=first, subsequent_indent=" " * (indent + width), break_on_hyphens=False)
+        lines += textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=" " * (indent + width), break_on_hyphens=False)
     return lines
 
 
-# ---- the panel -------------------------------------------------------------------------------------
-def xml_property(option):
-    tag = XML_TAGS[option["type"]]
-    kind = "Int" if "entries" in option else tag
-    name = option["property"]
-    default = option.get("default_value", 0 if kind == "Int" and option["choices"] or "entries" in option else
-                         XML_DEFAULTS.get(option["type"], option["default"]))
-    default = option["strings"][0] if "strings" in option else f"{default:g}" if isinstance(default, float) else str(int(default)) if isinstance(default, bool) else default
-    count = {"point": 3, "region": 6}.get(option["type"], 1)
-    attributes = [f'name="{name}"', f'command="Set{name}"', f'number_of_elements="{count}"', f'default_values="{default}"', 'animateable="0"']
-    if option.get("advanced"):
-        attributes.append('panel_visibility="advanced"')
-    head = f"      <{kind}VectorProperty "
-    lines = ["<!-- SPDX-License-Identifier: BSD-3-Clause -->", f"<!-- Made of {TABLE} by tests/lint/options.py. -->",
-             head + ("\n" + " " * len(head)).join(attributes) + ">"]
-    entries = option.get("entries") or ["".join(word.capitalize() for word in choice.split("_")) for choice in option["choices"]]
-    if entries:
-        values = option.get("values", range(len(entries)))
-        lines += ['        <EnumerationDomain name="enum">',
-                  *[f'          <Entry text="{entry}" value="{value}"/>' for entry, value in zip(entries, values)], "        </EnumerationDomain>"]
-    elif "strings" in option:
-        lines += ['        <StringListDomain name="styles">', *[f'          <String value="{word}"/>' for word in option["strings"]],
-                  "        </StringListDomain>"]
-    elif option["type"] == "flag":
-        lines.append('        <BooleanDomain name="bool"/>')
-    elif "minimum" in option:
-        lines.append(f'        <{kind}RangeDomain name="range" min="{option["minimum"]:g}"/>')
-    text = textwrap.wrap(" ".join(option["page"].split()), WIDTH_XML, initial_indent=" " * 10, subsequent_indent=" " * 10,
-                         break_long_words=False, break_on_hyphens=False)
-    return [*lines, "        <Documentation>", *text, "        </Documentation>", f"      </{kind}VectorProperty>"]
 
 
 # ---- files -----------------------------------------------------------------------------------------
@@ -194,11 +121,11 @@ def signature(path, text, name, words):
     indent = " " * len(head)
     line, lines = head, []
     for word in [*kept, *words]:
-        if len(line) + len(word) + 1 > WIDTH_PYTHON:
+        if len(line) + len(word) + 1 > WIDTH:
             lines.append(line.rstrip())
             line = indent
         line += word + ", "
-    if len(line) + 70 > WIDTH_PYTHON:
+    if len(line) + 70 > WIDTH:
         lines.append(line.rstrip())
         line = indent
     return text[:match.start()] + "\n".join([*lines, line]) + text[match.start(3):]
@@ -207,8 +134,7 @@ def signature(path, text, name, words):
 def made(root):
     """{path: text} of all that comes from the table."""
     table = load(root)
-    files = {f"xml/shared/{option['property']}.xml": "\n".join(xml_property(option)) + "\n" for option in table["option"]}
-    files["core/python/vtkgranular/_options.py"] = "\n".join(python_tables(table)) + "\n"
+    files = {}
     regions = {
         "core/c/granular.h": [
             (r"^  GRANULAR_KIND_AUTOMATIC = -1,$", r"^\} granular_kind;$", c_kinds(table)),
@@ -220,7 +146,7 @@ def made(root):
                                   (r"^      request->points = 1;$", r"^    \}$", c_defaults(table, "frame", "request"))],
         "core/python/vtkgranular/_run.py": [
             (r"^    kind            \"dump\".*?says?$", r"^    progress        is called", python_docs(table, "files", 4, 16)),
-            (r"^                        take no memory; positions are always read\.$", r"^        progress        is called", python_docs(table, "frame", 8, 16))],
+            (r"^ {24}take no memory; positions are always read\.$", r"^ {8}progress {8}is called", python_docs(table, "frame", 8, 16))],
     }
     for path, parts in regions.items():
         text = tree.read(root, path)
@@ -233,9 +159,23 @@ def made(root):
     return files
 
 
+def check_core(root):
+    """The kinds of the core have the numbers and the order of the table."""
+    path = "core/granular/runs/kinds.cpp"
+    order = re.findall(r"&(\w+)_kind\b", tree.read(root, path))
+    expected = [kind["c"].lower() for kind in load(root)["kind"]]
+    if order != expected:
+        yield path, 1, f"expected the kinds in the order of {TABLE}, {', '.join(expected)}, got {', '.join(order)}"
+    for kind in load(root)["kind"]:
+        path = f"core/granular/runs/{kind['c'].lower()}_kind.cpp"
+        if f".number = {kind['number']}," not in tree.read(root, path):
+            yield path, 1, f"expected .number = {kind['number']}, as {TABLE} has it"
+
+
 def check(root):
+    yield from check_core(root)
     for path, text in made(root).items():
-        there = tree.read(root, path) if os.path.exists(os.path.join(root, path)) else ""
+        there = tree.read(root, path)
         if there != text:
             lines = zip(there.splitlines() + [""], text.splitlines() + [""])
             line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), 1)

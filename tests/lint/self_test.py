@@ -12,6 +12,7 @@ import layering
 import links
 import messages
 import options
+import reader_options
 import reference
 import server_manager
 import sizes
@@ -479,19 +480,20 @@ page = "A size that there is not. At least 3; default 7."
 
     def test_a_pretend_option_in_one_place_is_everywhere(self):
         with tempfile.TemporaryDirectory() as root:
-            for folder in ("core", "xml"):
+            for folder in ("core", "xml", "cmake"):
                 shutil.copytree(os.path.join(self.ROOT, folder), os.path.join(root, folder))
             self.assertEqual(list(options.check(root)), [])
             with open(os.path.join(root, options.TABLE), "a", encoding="utf-8") as table:
                 table.write(self.PRETEND)
-            self.assertEqual(len(list(options.check(root))), 6)
+            self.assertEqual(len(list(options.check(root))), 4)
             made = options.made(root)
             for name, text in made.items():
                 with open(os.path.join(root, name), "w", encoding="utf-8") as stream:
                     stream.write(text)
+            shared = reader_options.expand(root, '<Shared name="PretendSize"/>')
+            self.assertIn('<IntRangeDomain name="range" min="3"/>', shared)
+            self.assertIn("A size that there is not. At least 3; default 7.", shared)
             for path, expected in (
-                    ("xml/shared/PretendSize.xml", '<IntRangeDomain name="range" min="3"/>'),
-                    ("xml/shared/PretendSize.xml", "A size that there is not. At least 3; default 7."),
                     ("core/c/granular.h", "/* a size that there is not */\n  int64_t pretend_size;"),
                     ("core/c/granular_c.cpp", "options->pretend_size = 7;"),
                     ("core/c/run.cpp", 'made.pretend_size = at_least(3, given.pretend_size, "pretend_size");'),
@@ -500,6 +502,7 @@ page = "A size that there is not. At least 3; default 7."
                 self.assertIn(expected, made[path])
             package = os.path.join(root, "core", "python")
             shutil.copy(os.path.join(package, "vtkgranular", "_folders.py.in"), os.path.join(package, "vtkgranular", "_folders.py"))
+            reader_options.main(root, "python", os.path.join(package, "vtkgranular", "_options.py"))
             tell = ("import argparse, inspect, vtkgranular; from vtkgranular.command import add_reading; parser = argparse.ArgumentParser(); "
                     "add_reading(parser); print(inspect.signature(vtkgranular.open)); print(vtkgranular.open.__doc__); print(parser.format_help())")
             said = subprocess.run([sys.executable, "-c", tell], env={**os.environ, "PYTHONPATH": package}, capture_output=True, text=True)

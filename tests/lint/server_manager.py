@@ -6,9 +6,13 @@ data, no two proxies of a kind claim one file extension, but readers that look i
 panel of a reader with times begins with them."""
 import os
 import re
+import sys
 from xml.parsers import expat
 
 import tree
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "cmake"))
+from reader_options import expand  # noqa: E402
 
 # Methods that every algorithm or writer inherits and that XML may name.
 INHERITED = {
@@ -20,7 +24,6 @@ TIMES = {"TimestepValues", "TimeRange", "TimeLabelAnnotation"}
 COMMANDS = ("command", "clean_command", "set_number_command")
 SHORTEST_DOCUMENTATION = 20
 NAMES = "tests/lint/property_names.txt"
-SHARED = re.compile(r'<Shared name="(?P<name>[A-Za-z]+)"(?: of="(?P<of>[A-Za-z]+)")?(?:/>|>(?P<inside>.*?)</Shared>)', re.DOTALL)
 
 
 class Element:
@@ -58,16 +61,6 @@ def parse(path, text):
     parser.CharacterDataHandler = characters
     parser.Parse(text.encode("utf-8", "surrogateescape"), True)
     return top
-
-
-def expand(root, text):
-    """The text with <Shared name="X" of="Y">inside</Shared> replaced by xml/shared/X.xml, as cmake/server_manager_xml.cmake does it;
-    on as many lines, so that complaints name the line of the stand-in."""
-    def shared(match):
-        name, of, inside = (match.group(key) or "" for key in ("name", "of", "inside"))
-        part = tree.read(root, f"xml/shared/{name}.xml").replace("@Of@", of).replace("@of@", of.lower()).replace("@inside@", inside)
-        return expand(root, part).replace("\n", " ") + "\n" * match.group().count("\n")
-    return SHARED.sub(shared, text)
 
 
 def proxies(root):

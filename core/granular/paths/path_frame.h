@@ -5,7 +5,6 @@
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
 #include "granular/common/value_type.h"
-#include "granular/formats/dump/read/dump_part.h"
 #include "granular/frames/frame.h"
 #include "granular/frames/run_index.h"
 #include "granular/geometry/positions.h"
@@ -13,6 +12,7 @@
 #include "granular/parallel/communicator.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
+#include "granular/particles/request.h"
 #include "granular/paths/id_selection.h"
 
 #include <cstddef>

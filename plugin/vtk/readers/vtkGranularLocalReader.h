@@ -76,16 +76,8 @@ public:
 
   ///@{
   /**
-   * Meaning of the columns, which files rarely tell: c_b[1] can be anything. AUTOMATIC, the default: what they are named, if that says
-   * between which particles or places lines are; else the preset with as many columns that fits the values, with a warning where
-   * another has as many; an error that lists presets where none fits or several do. AS_NAMED: what they are named. Others:
-   * the columns, or those whose names say nothing, in this order:
-   * - BOND_IDS: id1 id2 btype; BOND_TYPE_IDS: btype id1 id2; both also with dist engpot and the force behind them
-   *   (BOND_IDS_FORCE, BOND_TYPE_IDS_FORCE: property/local with bond/local of LAMMPS);
-   * - BONDS: the ends (6), id1 id2 btype (property/local of LIGGGHTS' forks); BONDS_FORCE: and the force; BONDS_FORCE_TORQUE:
-   *   and the torque and equilibrium_length (16 columns);
-   * - CONTACTS: the ends (6), id1 id2 periodic (pair/gran/local pos id); CONTACTS_FORCE: and the force;
-   * - WALL_CONTACTS: the ends (6), mesh triangle id2 (wall/gran/local pos id); WALL_CONTACTS_FORCE: and the force.
+   * Sets the meaning of the columns, which files rarely tell: c_b[1] can be anything. AUTOMATIC, the default: by the names, or the
+   * only preset that fits the values. AS_NAMED: by the names. Others: the columns of granular::local_presets in their order.
    */
   vtkGranularSetRangeMacro(Preset, int, AUTOMATIC, BOND_TYPE_IDS_FORCE);
   vtkGetMacro(Preset, int);
@@ -93,10 +85,7 @@ public:
 
   ///@{
   /**
-   * Meaning of the columns in the words of the user, instead of Preset if it is not empty. Either a name for each column, or the
-   * keywords of the compute that made them, such as "pos id force"; or pairs of a name and a column, which the file names or which is a
-   * number from 1 on, such as "id1=c_b[7] id2=8". Names are those of arrays and their components (x1 y1 z1 x2 y2 z2
-   * id1 id2 btype periodic forcex forcey forcez torquex dist equilibrium_length and so on), or any others.
+   * Sets the meaning of the columns in the words of the user, instead of Preset if it is not empty: see granular::name_columns.
    */
   vtkSetStdStringFromCharMacro(ColumnMap);
   vtkGetCharFromStdStringMacro(ColumnMap);

@@ -72,13 +72,8 @@ public:
 
   ///@{
   /**
-   * Which program wrote the history of bonds, which says what its values are. AUTOMATIC, the default: the one that has as many
-   * values; for 13 PFM if the header of the file says so, else FLEXIBLE_FIBERS. NUMBERED: history1, history2, ... , which is also
-   * what values are, with a warning, if their number is not that of the layout.
-   * - WITH_BONDS, 12 values: force_normal, force_tangential, torque_normal, torque_tangential, three each;
-   * - PFM, 13: these and initial_length, which the program keeps, but does not use;
-   * - FLEXIBLE_FIBERS, 13 (until May 2021): these and equilibrium_length;
-   * - FLEXIBLE_FIBERS_DAMAGE, 14 (later ones, SEAICE): these and damage, from 1 to 0 where the bond breaks.
+   * Sets the program that wrote the history of bonds, which says what its values are: see granular::make_bond_schema. AUTOMATIC, the
+   * default: the one with as many values. NUMBERED: history1, history2, ...
    */
   vtkGranularSetRangeMacro(HistoryLayout, int, AUTOMATIC, FLEXIBLE_FIBERS_DAMAGE);
   vtkGetMacro(HistoryLayout, int);

@@ -3,9 +3,9 @@
 #define vtkGranularInputFrames_h
 
 #include "granular/common/error.h"
-#include "granular/formats/dump/read/dump_part.h"
 #include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
+#include "granular/particles/request.h"
 
 #include <optional>
 #include <string>

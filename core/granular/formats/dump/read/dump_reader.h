@@ -5,15 +5,30 @@
 #include "granular/bytes/byte_source.h"
 #include "granular/common/error.h"
 #include "granular/common/progress.h"
-#include "granular/formats/dump/read/dump_part.h"
+#include "granular/formats/dump/grammar/frame_rows.h"
 #include "granular/frames/run_index.h"
+#include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
+#include "granular/particles/request.h"
+#include "granular/particles/rounding_loss.h"
 #include "granular/particles/table.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace granular
 {
+/// The part of a frame that one rank has decoded, before the ranks communicate.
+struct DumpPart
+{
+  Table frame;
+  Block ids;       ///< for sorting, if the frame has no array of ids
+  Misfits misfits; ///< if not empty, there is no frame
+  Notices notices;
+  RoundingLoss loss;                ///< of the points
+  std::vector<std::int64_t> counts; ///< rows of each piece in this part
+};
+
 /// Decodes one frame, text or binary, from all its pieces in order, or part request.piece of request.pieces of it. The parts
 /// hold each row once, in order. A part of a text holds the rows that begin in its share of the bytes, a part of a binary
 /// dump or of sorted rows a share of the rows. There may be more parts than rows.

@@ -3,6 +3,7 @@
 #define granular_formats_dump_read_frame_decoder_h
 
 #include "granular/formats/dump/grammar/frame_rows.h"
+#include "granular/formats/dump/read/dump_reader.h"
 #include "granular/formats/dump/read/frame_chunks.h"
 #include "granular/formats/dump/read/frame_layout.h"
 #include "granular/parallel/executor.h"

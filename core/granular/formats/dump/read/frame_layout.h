@@ -2,8 +2,9 @@
 #ifndef granular_formats_dump_read_frame_layout_h
 #define granular_formats_dump_read_frame_layout_h
 
-#include "granular/formats/dump/read/dump_part.h"
 #include "granular/memory/block.h"
+#include "granular/particles/request.h"
+#include "granular/particles/table.h"
 #include "granular/text/row_text.h"
 
 #include <cstddef>
