@@ -76,7 +76,7 @@ def python_tables(table):
         return "".join(f"\n    Option{each!r}," for each in values)
 
     kinds = sorted(table["kind"], key=lambda kind: kind["number"])
-    return PYTHON_TABLES.format(kinds=tuple(kind["name"] for kind in kinds), readers=tuple(kind["reader"] for kind in table["kind"]),
+    return PYTHON_TABLES.format(kinds=tuple(kind["name"] for kind in kinds), readers=tuple(dict.fromkeys(kind["reader"] for kind in table["kind"])),
                                 files=rows("files"), frame=rows("frame"))
 
 

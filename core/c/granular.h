@@ -100,7 +100,8 @@ typedef GRANULAR_ENUM(granular_kind)
   GRANULAR_KIND_RESTART = 2,      /* restart files of LIGGGHTS: particles, and bonds in table 1 */
   GRANULAR_KIND_DATA_FILE = 3,    /* data files: particles, and bonds in table 1 */
   GRANULAR_KIND_EULER = 4,        /* averaged cells */
-  GRANULAR_KIND_DECOMPOSITION = 5 /* subdomains of ranks */
+  GRANULAR_KIND_DECOMPOSITION = 5, /* subdomains of ranks */
+  GRANULAR_KIND_GRID = 6          /* dump grid: cells */
 } granular_kind;
 
 /* Options of granular_open. granular_open_options_init sets the defaults; null strings are empty. */

@@ -35,5 +35,6 @@
 #include "granular/formats/decomposition/decomposition_text.h"
 #include "granular/formats/euler/euler_file.h"
 #include "granular/formats/euler/euler_text.h"
+#include "granular/formats/grid_dump/grid_dump.h"
 #include "granular/subdomains/count_particles.h"
 #endif

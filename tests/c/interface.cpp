@@ -216,6 +216,7 @@ TEST(CInterface, EveryKindOpens)
     { good("local/contacts.dump"), GRANULAR_KIND_LOCAL, { "ends", "length", "id1", "force" } },
     { good("local/chain.data"), GRANULAR_KIND_DATA_FILE, { "points", "id", "type" } },
     { good("euler_*.vtk"), GRANULAR_KIND_EULER, { "points", "v_avg", "volumefraction" } },
+    { good("grid/grid_*.dump"), GRANULAR_KIND_GRID, { "points", "v" } },
     { good("decomposition_*.vtk"), GRANULAR_KIND_DECOMPOSITION, { "lo", "hi" } },
     { std::string(GRANULAR_DATA) + "/../../samples/data/restart/fibres.*.restart",
       GRANULAR_KIND_RESTART, { "points", "id", "radius" } },

@@ -56,6 +56,7 @@ const FilesOfKind small_kinds[] = {
     "restart/parts.2.restart" }, 1 },
   { "Euler cells", GRANULAR_KIND_EULER, { "euler_1000.vtk", "euler_2000.vtk" }, 2 },
   { "Euler cells, binary", GRANULAR_KIND_EULER, { "euler/grid_51_binary.vtk" }, 1 },
+  { "grids in one file", GRANULAR_KIND_GRID, { "grid/grid.dump" }, 2 },
   { "decompositions in one file", GRANULAR_KIND_DECOMPOSITION, { "decomposition/all.vtk" }, 3 },
   { "decomposition, binary", GRANULAR_KIND_DECOMPOSITION, { "decomposition/voxels_51_binary.vtk" }, 1 },
   { "decomposition, .vtu", GRANULAR_KIND_DECOMPOSITION, { "decomposition/blocks_raw_zlib.vtu" }, 1 },

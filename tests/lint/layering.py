@@ -73,11 +73,12 @@ ROOMS = {room: words.split() for room, words in (
                       "formats/dump/grammar formats/dump/read"),
     ("formats/data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting lines "
                           "formats/dump/read"),
+    ("formats/grid_dump", "common bytes geometry frames particles grid formats/dump/grammar formats/dump/read"),
     ("formats/restart", "common numbers bytes memory geometry parallel frames particles lines"),
     ("formats/euler", "common numbers bytes memory geometry parallel frames particles grid formats/vtk_files"),
     ("formats/decomposition", "common numbers bytes memory geometry parallel frames particles grid formats/vtk_files"),
     ("runs", "common columns bytes memory geometry parallel frames particles lines grid formats/dump/grammar formats/dump/read "
-             "formats/local formats/data_file formats/restart formats/euler formats/decomposition"),
+             "formats/local formats/data_file formats/restart formats/euler formats/decomposition formats/grid_dump"),
     ("subdomains", "common numbers memory geometry parallel frames particles grid"),
     ("packing", "common memory geometry parallel particles"),
     ("contacts", "common memory geometry parallel frames particles sorting grid lines"),

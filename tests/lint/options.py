@@ -91,6 +91,12 @@ def python_signature(table, scope, left_out=()):
     return words
 
 
+def python_kinds(table):
+    names = [f'"{kind["name"]}"' for kind in sorted(table["kind"], key=lambda kind: kind["number"])]
+    text = f"{', '.join(names[:-1])} or {names[-1]}; None (default): as the contents say"
+    return textwrap.wrap(text, WIDTH, initial_indent="    kind            ", subsequent_indent=" " * 20, break_on_hyphens=False)
+
+
 def python_docs(table, scope, indent, width):
     lines = []
     for option in options_of(table, scope):
@@ -145,7 +151,8 @@ def made(root):
         "core/c/granular_c.cpp": [(r"^      options->kind = GRANULAR_KIND_AUTOMATIC;$", r"^    \}$", c_defaults(table, "files", "options")),
                                   (r"^      request->points = 1;$", r"^    \}$", c_defaults(table, "frame", "request"))],
         "core/python/vtkgranular/_run.py": [
-            (r"^    kind            \"dump\".*?says?$", r"^    progress        is called", python_docs(table, "files", 4, 16)),
+            (r"^    paths           a file, .*?by their contents\.$", r"^    progress        is called",
+             [*python_kinds(table), *python_docs(table, "files", 4, 16)]),
             (r"^ {24}take no memory; positions are always read\.$", r"^ {8}progress {8}is called", python_docs(table, "frame", 8, 16))],
     }
     for path, parts in regions.items():

@@ -26,6 +26,7 @@ NAMES = (
     (CONTACTS, "Local", None, "contacts.local bonds.bond x.bfc x.lmp dump.local.1000"),
     (FIBRES, "Restart", 31, "restart.1000 restart.equil tmp.restart.2000 old.rst fibres.restart tmp.restart1"),
     (CELLS, "Euler", 112, "cells.euler"),
+    ("grid/grid_600.dump", "Euler", None, "a.grid cells.dump grid.lammpstrj"),
     (DOMAINS, "Decomposition", 4, "all.vtk all.decomposition"),
 )
 # files of one kind that have the names of others

@@ -6,6 +6,7 @@
 #include "granular/common/error.h"
 #include "granular/geometry/box.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -39,6 +40,8 @@ struct FrameHeader
   std::optional<Dialect> dialect = {}; ///< of the header, if known
   std::vector<int>
     digits = {}; ///< in text, the largest number of digits in a real number of each column in the first rows; 0: none was seen
+  std::array<std::int64_t, 3>
+    cells = {}; ///< of a grid, along each edge of the box; rows are all of them
 };
 
 /// Returns the schema of a binary dump, in which an element is written as its type.

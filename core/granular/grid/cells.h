@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -91,6 +92,26 @@ struct EulerArray
 /// v_avg, volumefraction, radius, pressure as dump euler/vtk of LIGGGHTS writes them, in this order; then sigma (xx yy zz)
 /// and tau (xy xz yz) of its fork PFM.
 std::span<const EulerArray> euler_arrays() noexcept;
+
+/// Values of cells under their names in the file: v_avg, volumefraction, ... (see euler_arrays), or others.
+struct EulerValues
+{
+  std::string name;
+  int components = 1;
+  std::vector<double> values; ///< components for each cell
+};
+
+/// Cells of a frame as in the file. Numbers are the nearest doubles to the text, for any type that the file names; nan and infinities
+/// are accepted.
+struct EulerFrame
+{
+  std::int64_t cells = 0;
+  std::vector<double> centres; ///< x y z of each; the middle of cells with faces
+  std::vector<EulerValues> arrays;
+
+  /// The faces of a rectilinear grid along each axis, as in the file; otherwise empty.
+  std::vector<double> faces[3];
+};
 
 /// The cells of all processes, with stresses where all processes that have cells have them, on rank 0; none on
 /// others. Collective.

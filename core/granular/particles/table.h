@@ -11,8 +11,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace granular
@@ -64,6 +66,26 @@ struct Tables
 
 /// Returns the array of a table that has a name, or null.
 TableArray* find_array(Table& table, std::string_view name);
+
+/// Returns true if an array holds doubles, std::int64_t or std::int32_t, as many in a row.
+template <class Value>
+bool holds(const TableArray& array, std::size_t components)
+{
+  constexpr ValueType type = std::is_same_v<Value, double> ? ValueType::Float64
+    : std::is_same_v<Value, std::int64_t>                  ? ValueType::Int64
+                                                           : ValueType::Int32;
+  return array.info.type == type && array.info.columns.size() == components;
+}
+
+/// The values of an array; none where there is no array, or one that holds others than these.
+template <class Value>
+std::span<const Value> values_in(const TableArray* array, std::size_t components = 1)
+{
+  return array && holds<Value>(*array, components)
+    ? std::span(
+        static_cast<const Value*>(array->block.data()), array->block.bytes() / sizeof(Value))
+    : std::span<const Value>();
+}
 
 /// The ranges of the points and of each array of a frame, found part by part. Texts have none.
 class FrameRanges

@@ -59,32 +59,6 @@ std::vector<std::size_t> first_with_rows(const RunIndex& index)
   return { frame };
 }
 
-Tables read_cells(const RunPlace& place, const Request& request, const Offer&, Communicator&,
-  Notices& notices, Progress& progress)
-{
-  const auto wanted = [&request](std::string_view name) { return is_wanted(request.wanted, name); };
-  EulerFrame cells = read_euler_pieces(place.index.pieces(place.frame), wanted, notices, progress);
-  for (std::size_t i = 0; i < cells.centres.size(); ++i)
-  {
-    cells.centres[i] -= request.point_origin[i % 3];
-  }
-  Tables frame;
-  Table& table = frame.rows;
-  table.header.timestep = place.index.first_piece(place.frame).entry.timestep;
-  table.header.has_box = false;
-  table.rows = cells.cells;
-  if (request.points)
-  {
-    table.points = block_of(cells.centres);
-    cells.centres = std::vector<double>();
-  }
-  for (EulerValues& array : cells.arrays)
-  {
-    add_array(table, array.name, ValueType::Float64, array.components, block_of(array.values));
-    array.values = std::vector<double>(); // or there would be two of all
-  }
-  return frame;
-}
 }
 
 constinit const Kind euler_kind = { .number = 4,
@@ -95,5 +69,6 @@ constinit const Kind euler_kind = { .number = 4,
   .has_pieces = true,
   .looked_at = first_with_rows,
   .offer = offer_cells,
-  .read = read_cells };
+  .read = read_cells,
+  .cells = read_euler_pieces };
 }

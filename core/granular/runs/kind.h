@@ -7,6 +7,7 @@
 #include "granular/common/progress.h"
 #include "granular/frames/file_format.h"
 #include "granular/frames/run_index.h"
+#include "granular/grid/cells.h"
 #include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/request.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +28,7 @@ namespace granular
 /// A frame of a run, and how its files are understood.
 struct RunPlace
 {
+  const struct Kind& kind;
   const RunIndex& index;
   std::size_t frame;
   const RunOptions& options;
@@ -53,6 +56,11 @@ struct Kind
   /// Reads a frame. `offer` is needed for local data alone. Collective.
   Tables (*read)(const RunPlace& place, const Request& request, const Offer& offer,
     Communicator& ranks, Notices& notices, Progress& progress);
+
+  /// Reads the cells of a frame, for kinds that have cells.
+  EulerFrame (*cells)(const std::vector<FramePiece>& pieces,
+    const std::function<bool(std::string_view)>& wanted, Notices& notices,
+    Progress& progress) = nullptr;
 };
 
 /// The kinds, each in a file of its own.
@@ -62,6 +70,7 @@ extern const Kind restart_kind;
 extern const Kind data_file_kind;
 extern const Kind euler_kind;
 extern const Kind decomposition_kind;
+extern const Kind grid_kind;
 
 /// Returns all kinds, in the order in which they are asked whether a file is theirs.
 std::span<const Kind* const> kinds() noexcept;
@@ -79,6 +88,10 @@ const KnownColumn* find_known(std::string_view array, std::span<const KnownColum
 
 /// Returns the arrays that columns make; the table knows their units.
 std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const KnownColumn> table);
+
+/// Reads cells as a table: Kind::read for kinds that have cells.
+Tables read_cells(const RunPlace& place, const Request& request, const Offer& offer,
+  Communicator& ranks, Notices& notices, Progress& progress);
 
 /// Returns values in memory that can be given away.
 template <class Value>

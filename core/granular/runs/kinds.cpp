@@ -10,7 +10,7 @@ namespace granular
 std::span<const Kind* const> kinds() noexcept
 {
   static constexpr const Kind* all[] = { &dump_kind, &local_kind, &restart_kind, &data_file_kind,
-    &decomposition_kind, &euler_kind };
+    &decomposition_kind, &euler_kind, &grid_kind };
   return all;
 }
 
@@ -56,6 +56,33 @@ std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const 
       find_known(array.name, table) });
   }
   return arrays;
+}
+
+Tables read_cells(const RunPlace& place, const Request& request, const Offer&, Communicator&,
+  Notices& notices, Progress& progress)
+{
+  const auto wanted = [&request](std::string_view name) { return is_wanted(request.wanted, name); };
+  EulerFrame cells = place.kind.cells(place.index.pieces(place.frame), wanted, notices, progress);
+  for (std::size_t i = 0; i < cells.centres.size(); ++i)
+  {
+    cells.centres[i] -= request.point_origin[i % 3];
+  }
+  Tables frame;
+  Table& table = frame.rows;
+  table.header.timestep = place.index.first_piece(place.frame).entry.timestep;
+  table.header.has_box = false;
+  table.rows = cells.cells;
+  if (request.points)
+  {
+    table.points = block_of(cells.centres);
+    cells.centres = std::vector<double>();
+  }
+  for (EulerValues& array : cells.arrays)
+  {
+    add_array(table, array.name, ValueType::Float64, array.components, block_of(array.values));
+    array.values = std::vector<double>(); // or there would be two of all
+  }
+  return frame;
 }
 
 void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block)

@@ -69,7 +69,7 @@ const Offer& Run::offer(std::size_t frame, Progress& progress)
   const auto known = offers_.find(key);
   return known != offers_.end()
     ? known->second
-    : offers_.emplace(std::move(key), kind_->offer({ index_, frame, options_ }, progress))
+    : offers_.emplace(std::move(key), kind_->offer({ *kind_, index_, frame, options_ }, progress))
         .first->second;
 }
 
@@ -128,6 +128,6 @@ Tables Run::read(std::size_t frame, const Request& request, const Offer& offer, 
     throw FormatError(offer.error, offer.where);
   }
   notices.insert(notices.end(), offer.notices.begin(), offer.notices.end());
-  return kind_->read({ index_, frame, options_ }, request, offer, ranks, notices, progress);
+  return kind_->read({ *kind_, index_, frame, options_ }, request, offer, ranks, notices, progress);
 }
 }

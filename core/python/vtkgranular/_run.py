@@ -586,7 +586,7 @@ class Run(_Frames):
     len(run), run[-1], run[10:20:5], for frame in run
     run.steps, run.times   timesteps and times of all frames
     run.columns            the columns of the first frame that has rows
-    run.kind               "dump", "local", "restart", "data", "euler" or "decomposition"
+    run.kind               what the files are, as `kind` of vtkgranular.open
 
     A run may be used by several threads, pickled, and sent to other processes, which open the files again.
     """
@@ -702,7 +702,7 @@ class Run(_Frames):
     # ---- for users ----
     @property
     def kind(self) -> str:
-        """What the files are: "dump", "local", "restart", "data", "euler" or "decomposition"."""
+        """What the files are, as `kind` of vtkgranular.open."""
         return KINDS[self._info().kind]
 
     @property
@@ -835,7 +835,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
 
     paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files. Dumps in every form, contacts
                     and bonds (dump local), restart files, data files, decompositions and Euler cells are told apart by their contents.
-    kind            "dump", "local", "restart", "data", "euler" or "decomposition"; None (default): as the contents say
+    kind            "dump", "local", "restart", "data", "euler", "decomposition" or "grid"; None (default): as the contents say
     dt              time of one timestep, greater than 0, in the unit of the run; default: times are timesteps, unless the files
                     hold times
     column_names    columns of binary dumps that do not name them: "id type x y z vx vy vz"; or a list

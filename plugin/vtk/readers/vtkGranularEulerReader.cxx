@@ -7,6 +7,7 @@
 
 #include "granular/formats/euler/euler_file.h"
 #include "granular/formats/euler/regular_grids.h"
+#include "granular/formats/grid_dump/grid_dump.h"
 
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"
@@ -60,11 +61,12 @@ void pass(Archive& archive, typename Archive::template Passed<Form>& form)
 /**
  * Reads cells, of which there may be several files, and finds the grids that they form, if wanted. Errors name the file.
  */
-granular::EulerFrame ReadCells(const std::vector<granular::FramePiece>& pieces,
+granular::EulerFrame ReadCells(const granular::Kind& kind,
+  const std::vector<granular::FramePiece>& pieces,
   const std::function<bool(std::string_view)>& wanted, std::vector<granular::RegularGrid>* grids,
   granular::Notices& notices, granular::Progress& progress)
 {
-  granular::EulerFrame all = granular::read_euler_pieces(pieces, wanted, notices, progress);
+  granular::EulerFrame all = kind.cells(pieces, wanted, notices, progress);
   if (grids)
   {
     NameFile(granular::where_of(pieces.front().file.path, pieces.front().entry),
@@ -162,6 +164,12 @@ struct vtkGranularEulerReader::Internals : vtkGranularSeriesReader::Internals
   {
   }
 
+  const granular::Kind& FindKind() const override
+  {
+    const bool isGrid = !this->FileNames.empty() && granular::is_grid_file(this->FileNames.front());
+    return isGrid ? granular::grid_kind : granular::euler_kind;
+  }
+
   std::string GetLookKey() const override { return std::to_string(this->Reader->OutputType); }
   void LookFurther() override;
   void Describe(vtkInformationVector* outputs) override;
@@ -190,7 +198,8 @@ void vtkGranularEulerReader::Internals::LookFurther()
       granular::Notices notices; // are given again where cells are shown
       std::vector<granular::RegularGrid> grids;
       ReadCells(
-        pieces, [](std::string_view) { return false; }, &grids, notices, progress);
+        this->Run.kind(), pieces, [](std::string_view) { return false; }, &grids, notices,
+        progress);
       form.IsImage = grids.size() <= 1;
       form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
       ExtentOf(form.Grid); // can be had
@@ -273,8 +282,8 @@ void vtkGranularEulerReader::Internals::Show(Shown& shown)
       this->Points.GetSelection()->ArrayIsEnabled(array.c_str()) != 0;
   };
   std::vector<granular::RegularGrid> grids;
-  const granular::EulerFrame frame =
-    ReadCells(shown.Pieces, wanted, cells ? &grids : nullptr, shown.Notices, shown.Progress);
+  const granular::EulerFrame frame = ReadCells(this->Run.kind(), shown.Pieces, wanted,
+    cells ? &grids : nullptr, shown.Notices, shown.Progress);
   if (cells && this->Known.IsImage)
   {
     NameFile(shown.Where, [&] { CheckImage(this->Known, grids); });
@@ -298,7 +307,8 @@ vtkGranularEulerReader::vtkGranularEulerReader()
 //------------------------------------------------------------------------------
 int vtkGranularEulerReader::CanReadFile(const char* fileName)
 {
-  return granular::is_euler_file(fileName ? fileName : "") ? 1 : 0;
+  const std::string name = fileName ? fileName : "";
+  return granular::is_euler_file(name) || granular::is_grid_file(name) ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkGranularEulerReader
- * @brief   Reads `dump euler/vtk` files: averages over the cells of a grid.
+ * @brief   Reads cells: files of `dump euler/vtk`, and of `dump grid` of LAMMPS.
  *
  * LIGGGHTS writes legacy VTK text with a point for each cell of fix ave/euler. Point arrays: `v_avg`, the mass-weighted velocity [m/s],
  * `volumefraction` of solids, `radius`, the mean [m], and `pressure` [Pa]. Its fork PFM also writes `sigma` (xx yy zz) and `tau` (xy xz
@@ -9,7 +9,10 @@
  * infinities are accepted. LIGGGHTS before 3.2.1 divided velocities a second time by the number of particles in the cell; the file
  * does not tell.
  *
- * The timestep is the last number in the file name that differs between the files. If several files have one timestep, the last file
+ * `dump grid` writes a text like other dumps, a row for each cell, which divide the box evenly; granular::read_grid says in which order.
+ * Its frames have timesteps, times and names of arrays as other dumps have them. Cells of a tilted box can be shown as points alone.
+ *
+ * The timestep of `dump euler/vtk` is the last number in the file name that differs between the files. If several files have one timestep, the last file
  * counts, unless SetRepeatedSteps declares them pieces. vtkGranularSeriesReader tells which frames there are, and their times.
  *
  * GetPointDataArraySelection has the arrays of the first frame that has cells: all on. Arrays of other frames are read unless they

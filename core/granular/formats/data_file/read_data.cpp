@@ -29,12 +29,6 @@ namespace
 {
 const std::vector<std::string> bond_columns = { "bond_id", "btype", "id1", "id2" };
 
-template <class Value>
-std::span<const Value> values_of(const TableArray& array)
-{
-  return { static_cast<const Value*>(array.block.data()), array.block.bytes() / sizeof(Value) };
-}
-
 /// The columns of all, with the types that those of the particles have come to be.
 ColumnSchema join_schemas(const DataColumns& columns, const ColumnSchema& particles)
 {
@@ -165,14 +159,10 @@ private:
   void find_boundary(Table& frame)
   {
     std::array<std::int64_t, 3> crossed = {};
-    const TableArray* const images = find_array(frame, "image");
-    if (images && images->info.type == ValueType::Int32)
+    const auto counts = values_in<std::int32_t>(find_array(frame, "image"), 3);
+    for (std::size_t i = 0; i < counts.size(); ++i)
     {
-      const auto counts = values_of<std::int32_t>(*images);
-      for (std::size_t i = 0; i < counts.size(); ++i)
-      {
-        crossed[i % 3] += counts[i] != 0 ? 1 : 0;
-      }
+      crossed[i % 3] += counts[i] != 0 ? 1 : 0;
     }
     ranks_.sum(crossed);
     if (crossed != std::array<std::int64_t, 3>{})
@@ -259,8 +249,8 @@ private:
     table.coordinates = scaled ? Coordinates::Absolute : frame.rows.coordinates;
     progress_.set_part(0.8, 0.9);
     const JoinedLines joined = join_lines(view_frame(frame.rows, own_.point_origin),
-      values_of<std::int64_t>(*find_array(table, "id1")),
-      values_of<std::int64_t>(*find_array(table, "id2")), { {}, {}, own_.threads, own_.pool },
+      values_in<std::int64_t>(find_array(table, "id1")),
+      values_in<std::int64_t>(find_array(table, "id2")), { {}, {}, own_.threads, own_.pool },
       ranks_, progress_);
     if (joined.count < table.rows)
     {

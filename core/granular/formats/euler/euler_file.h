@@ -8,6 +8,7 @@
 #include "granular/frames/file_format.h"
 #include "granular/frames/frame.h"
 #include "granular/frames/run_index.h"
+#include "granular/grid/cells.h"
 
 #include <cstdint>
 #include <functional>
@@ -27,26 +28,6 @@ const FileFormat& euler_format() noexcept;
 /// LIGGGHTS' title may also end, or go wrong, before these if its points are vertices, unlike those of meshes, or be only a
 /// header. Returns false, and never throws, for unreadable files.
 bool is_euler_file(const std::string& path) noexcept;
-
-/// Values of cells under their names in the file: v_avg, volumefraction, ... (see euler_arrays), or others.
-struct EulerValues
-{
-  std::string name;
-  int components = 1;
-  std::vector<double> values; ///< components for each cell
-};
-
-/// A frame as in the file. Numbers are the nearest doubles to the text, for any type that the file names; nan and infinities
-/// are accepted.
-struct EulerFrame
-{
-  std::int64_t cells = 0;
-  std::vector<double> centres; ///< x y z of each; the middle of cells with faces
-  std::vector<EulerValues> arrays;
-
-  /// The faces of a rectilinear grid along each axis, as in the file; otherwise empty.
-  std::vector<double> faces[3];
-};
 
 /// Decodes a frame, with the arrays that `wanted` accepts by name; arrays of text are left out with a notice. Throws Error
 /// with path and line or byte; Cancelled.

@@ -36,25 +36,6 @@ ColumnSchema schema_for(const std::vector<std::string>& names, const ColumnSchem
   return schema;
 }
 
-template <class Value>
-bool holds(const TableArray& array, std::size_t components)
-{
-  constexpr ValueType type = std::is_same_v<Value, double> ? ValueType::Float64
-    : std::is_same_v<Value, std::int64_t>                  ? ValueType::Int64
-                                                           : ValueType::Int32;
-  return array.info.type == type && array.info.columns.size() == components;
-}
-
-/// The values of an array; none where there is no array, or one that holds others than these.
-template <class Value>
-std::span<const Value> values_of(const TableArray* array, std::size_t components = 1)
-{
-  return array && holds<Value>(*array, components)
-    ? std::span(
-        static_cast<const Value*>(array->block.data()), array->block.bytes() / sizeof(Value))
-    : std::span<const Value>();
-}
-
 /// Returns true if no digit of a number is lost where it is printed with six.
 bool has_six_digits(std::int64_t id) noexcept
 {
@@ -97,7 +78,7 @@ std::int64_t count_rounded(const std::vector<FramePiece>& pieces, const Request&
   for (const std::string_view name : ids)
   {
     const TableArray* array = find_array(frame, name);
-    for (const std::int64_t id : values_of<std::int64_t>(array))
+    for (const std::int64_t id : values_in<std::int64_t>(array))
     {
       if (is_large(id) && !has_six_digits(id))
       {
@@ -147,8 +128,8 @@ void check_flags(const TableArray* periodic, const Where& where)
         where);
     }
   };
-  check(values_of<std::int32_t>(periodic));
-  check(values_of<double>(periodic)); // where one is no integer
+  check(values_in<std::int32_t>(periodic));
+  check(values_in<double>(periodic)); // where one is no integer
 }
 
 /// Returns true for an array that a user sees.
@@ -265,7 +246,7 @@ LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& 
   sample.has_box = part.frame.header.has_box;
   for (std::size_t column = 0; column < names.size(); ++column)
   {
-    const auto from = values_of<double>(&part.frame.arrays[column]);
+    const auto from = values_in<double>(&part.frame.arrays[column]);
     for (std::size_t row = 0; row < sample.rows; ++row)
     {
       sample.values[row * names.size() + column] = from[row];
@@ -300,13 +281,13 @@ Table read_local(const std::vector<FramePiece>& pieces, const std::vector<std::s
       sums[1] = count_rounded(pieces, table, frame, ranks.size() > 1, forward);
       if (frame.has_lines)
       {
-        const auto first = values_of<double>(find_array(frame, end_arrays[0]), 3);
-        const auto second = values_of<double>(find_array(frame, end_arrays[1]), 3);
+        const auto first = values_in<double>(find_array(frame, end_arrays[0]), 3);
+        const auto second = values_in<double>(find_array(frame, end_arrays[1]), 3);
         frame.lines = make_lines(first, second, frame.header.box, request, forward);
         const bool as_written = request.periodic_lines == PeriodicLines::AsWritten;
         const std::span lengths(
           static_cast<const double*>(frame.lines.lengths.data()), first.size() / 3);
-        const auto dist = values_of<double>(find_array(frame, "dist"));
+        const auto dist = values_in<double>(find_array(frame, "dist"));
         sums[2] = as_written ? 0 : count_misfits(lengths, dist, first, second);
       }
       drop_unwanted(request, frame);

@@ -73,6 +73,13 @@ void vtkGranularSeriesReader::Internals::Update()
     this->Told.clear();
     this->IndexedNames = this->FileNames;
   }
+  std::int64_t kind = ranks.rank() == 0 ? this->FindKind().number : 0;
+  ranks.sum({ &kind, 1 });
+  if (kind != this->Run.kind().number)
+  {
+    this->Run = granular::Run(
+      **std::ranges::find(granular::kinds(), static_cast<int>(kind), &granular::Kind::number));
+  }
   granular::Notices notices;
   AlgorithmProgress progress(this->Self);
   this->Run.refresh(this->FileNames, options, ranks, notices, progress);

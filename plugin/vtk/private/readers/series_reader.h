@@ -59,6 +59,11 @@ struct vtkGranularSeriesReader::Internals
   virtual void SetOptions(granular::RunOptions&) const {}
 
   /**
+   * Returns the kind of the files, for readers of several. Called on the first rank.
+   */
+  virtual const granular::Kind& FindKind() const { return this->Run.kind(); }
+
+  /**
    * Sets what is asked of a frame by properties of the reader. Throws Error.
    */
   virtual void SetRequest(granular::Request&) const {}

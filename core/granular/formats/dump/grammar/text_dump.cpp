@@ -322,6 +322,10 @@ std::optional<RowsOf> find_rows(std::string_view first_bytes)
     {
       return begins_with(words, "NUMBER OF ATOMS") ? RowsOf::Particles : RowsOf::Others;
     }
+    if (feed != first_bytes.npos && begins_with(words, "GRID SIZE"))
+    {
+      return RowsOf::Cells;
+    }
     first_bytes.remove_prefix(feed == first_bytes.npos ? first_bytes.size() : feed + 1);
   }
   return opened ? std::optional(RowsOf::Any) : std::nullopt;
@@ -331,12 +335,17 @@ std::optional<RowsOf> find_rows(std::string_view first_bytes)
 bool is_text_dump(std::string_view first_bytes)
 {
   const std::optional<RowsOf> rows = find_rows(first_bytes);
-  return rows && *rows != RowsOf::Others;
+  return rows == RowsOf::Particles || rows == RowsOf::Any;
 }
 
 bool is_text_of_others(std::string_view first_bytes)
 {
   return find_rows(first_bytes) == RowsOf::Others;
+}
+
+bool is_text_of_cells(std::string_view first_bytes)
+{
+  return find_rows(first_bytes) == RowsOf::Cells;
 }
 
 bool makes_columns(const std::vector<std::string>& names,

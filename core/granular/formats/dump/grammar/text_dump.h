@@ -23,6 +23,9 @@ bool is_text_dump(std::string_view first_bytes);
 /// something other than atoms.
 bool is_text_of_others(std::string_view first_bytes);
 
+/// Returns true if a file begins like a text of dump grid: the bytes must reach ITEM: GRID SIZE.
+bool is_text_of_cells(std::string_view first_bytes);
+
 /// Returns true if the names in a header and the words of the first row make these columns. first_row is empty if there
 /// are no rows.
 bool makes_columns(const std::vector<std::string>& names,

@@ -64,40 +64,13 @@ std::vector<std::string_view> item_words(std::string_view line)
   return take_item(line) ? split_words(line) : std::vector<std::string_view>();
 }
 
-int digits_of(std::string_view word) noexcept
-{
-  word = word.substr(0, word.find_first_of("eE"));
-  const std::size_t first = word.find_first_of("123456789");
-  return first == word.npos ? 0
-                            : static_cast<int>(std::ranges::count_if(word.substr(first), is_digit));
-}
-
-bool opens_frame(std::span<const std::string_view> words) noexcept
-{
-  return words.size() == 1 && (words[0] == "TIMESTEP" || words[0] == "UNITS" || words[0] == "TIME");
-}
-
-bool begins_with(
-  std::span<const std::string_view> words, std::string_view name, bool alone) noexcept
-{
-  std::size_t same = 0;
-  for (auto wanted = take_word(name); !wanted.empty(); wanted = take_word(name))
-  {
-    if (same == words.size() || words[same] != wanted)
-    {
-      return false;
-    }
-    ++same;
-  }
-  return !alone || same == words.size();
-}
-
 const TextHeader::Section TextHeader::sections[] = {
   { "TIMESTEP", true, &TextHeader::parse_timestep },
   { "TIME", true, &TextHeader::parse_time },
   { "UNITS", true, &TextHeader::parse_units },
   { "LABEL", true, &TextHeader::parse_label },
   { "NUMBER OF", false, &TextHeader::parse_rows },
+  { "GRID SIZE", false, &TextHeader::parse_grid },
   { "BOX BOUNDS", false, &TextHeader::parse_box },
   { "", false, &TextHeader::skip_section },
 };
@@ -108,6 +81,7 @@ void TextHeader::restart(const std::string& units)
   header_.label.clear();
   header_.counted = rows_of_ == RowsOf::Particles ? "ATOMS" : "";
   header_.units = units;
+  header_.cells = {};
   next_line_ = 0;
   opened_ = has_timestep_ = has_rows_ = has_box_ = has_columns_ = false;
 }
@@ -274,10 +248,12 @@ void TextHeader::parse_rows()
 {
   const std::string counted = join_words(std::span(words_).subspan(2));
   const bool particles = counted == "ATOMS";
-  if (counted.empty() || (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
+  if (counted.empty() || rows_of_ == RowsOf::Cells ||
+    (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
   {
-    this->fail(rows_of_ == RowsOf::Others ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
-                                          : "ITEM: NUMBER OF ATOMS",
+    this->fail(rows_of_ == RowsOf::Cells ? "ITEM: GRID SIZE"
+        : rows_of_ == RowsOf::Others     ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
+                                         : "ITEM: NUMBER OF ATOMS",
       "ITEM: " + join_words(words_));
   }
   header_.counted = counted;
@@ -289,6 +265,30 @@ void TextHeader::parse_rows()
   {
     this->fail(number + " >= 0", word);
   }
+  has_rows_ = true;
+}
+
+/// Three counts, along the edges of the box.
+void TextHeader::parse_grid()
+{
+  if (rows_of_ != RowsOf::Cells && rows_of_ != RowsOf::Any)
+  {
+    return this->skip_section();
+  }
+  constexpr std::int64_t most = std::int64_t{ 1 } << 40;
+  std::string_view line = this->value_line();
+  header_.rows = 1;
+  for (std::int64_t& count : header_.cells)
+  {
+    const std::string_view word = take_word(line);
+    count = this->integer(word, "three numbers of cells");
+    if (count < 1 || count > most / header_.rows)
+    {
+      this->fail("numbers of cells of 1 and more, 2^40 in all", word);
+    }
+    header_.rows *= count;
+  }
+  header_.counted = "GRID CELLS";
   has_rows_ = true;
 }
 
@@ -368,7 +368,7 @@ void TextHeader::parse_columns()
 {
   this->require(has_timestep_, "TIMESTEP");
   this->require(has_rows_, "NUMBER OF ATOMS");
-  this->require(has_box_ || header_.counted != "ATOMS", "BOX BOUNDS");
+  this->require(has_box_ || (header_.counted != "ATOMS" && header_.cells[0] == 0), "BOX BOUNDS");
   header_.has_box = has_box_;
   header_.box = has_box_ ? std::move(header_.box) : Box();
   const auto section = split_words(header_.counted).size();

@@ -32,6 +32,7 @@ enum class RowsOf : std::uint8_t
 {
   Particles,
   Others, ///< of dump local; there need be no box
+  Cells,  ///< of a grid, whose ITEM: GRID SIZE counts them
   Any
 };
 
@@ -87,6 +88,7 @@ private:
   void parse_units();
   void parse_label();
   void parse_rows();
+  void parse_grid();
   void parse_box();
   void parse_columns();
   void skip_section();
