@@ -46,7 +46,7 @@ TABLE = (
     ("Restart", "restart/fibres.restart", (None,), (1,), {"PeriodicLines": LINES[1:]}),
     ("Restart", "restart/parts.base.restart", (None,), (0, 1), {}),
     ("Euler", "euler_?000.vtk", (1000, 2000, 3000, 4000), (0,), {}),
-    ("Euler", "grid/grid_*.dump", (600, 1200), (0,), {}),
+    ("Euler", "grid/ids.dump", (None,), (0,), {}),
     ("Decomposition", "decomposition/all.vtk", (0,), (0,), {}),
 )
 
