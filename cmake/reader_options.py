@@ -69,10 +69,17 @@ FRAME = ({frame}
 '''
 
 
+def files_of(table, option):
+    """The files whose frames an option is for, in brackets; nothing for options of all, or of files, which tell themselves."""
+    files = [kind["files"] for kind in table["kind"] if kind["name"] in option["kinds"]]
+    return f" ({' and '.join(', '.join(files).rsplit(', ', 1))})" if files and option["of"] == "frame" else ""
+
+
 def python_tables(table):
     def rows(scope):
         keys = ("name", "property", "c", "type", "default", "choices", "text")
-        values = [tuple(tuple(option[key]) if key == "choices" else option[key] for key in keys) for option in options_of(table, scope)]
+        values = [tuple(tuple(option[key]) if key == "choices" else option[key] + files_of(table, option) if key == "text" else option[key]
+                        for key in keys) for option in options_of(table, scope)]
         return "".join(f"\n    Option{each!r}," for each in values)
 
     kinds = sorted(table["kind"], key=lambda kind: kind["number"])
@@ -140,8 +147,9 @@ def main(root, what, to):
         files = {os.path.join(to, name): expand(root, read(root, f"xml/{name}")) for name in names}
     for path, text in files.items():
         os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "w", encoding="utf-8", errors="surrogateescape") as stream:
-            stream.write(text)
+        if not os.path.exists(path) or read("", path) != text:  # what is made of it is as new as it is
+            with open(path, "w", encoding="utf-8", errors="surrogateescape") as stream:
+                stream.write(text)
 
 
 if __name__ == "__main__":

@@ -109,7 +109,7 @@ typedef struct granular_open_options
 {
   size_t size;              /* of this struct, for later versions */
   granular_kind kind; /* GRANULAR_KIND_AUTOMATIC (default): told apart by the contents of the first file */
-  /* time of one timestep, greater than 0, in the unit of the run; default: times are timesteps, unless the files hold times */
+  /* time of one timestep, greater than 0, in the unit of the run; by default 1, unless the files hold times */
   double timestep_size;
   /* columns of binary dumps that do not name them: "id type x y z vx vy vz" */
   const char* column_names;
@@ -242,22 +242,22 @@ typedef struct granular_request
   const char* const* arrays; /* names; null (default): all usual ones */
   size_t array_count;
   int points; /* 1 (default); 0: no points, and coordinates are arrays like others */
-  /* bounds xlo, xhi, ylo, yhi, zlo, zhi of the particles, which belong to the region, in absolute coordinates; an axis with lo >
-   * hi (default) is not restricted; no NaN; of dumps and data files */
+  /* a box xlo, xhi, ylo, yhi, zlo, zhi in absolute coordinates, faces included: only particles in it are read; an axis with lo >
+   * hi (default) is not restricted; no NaN (dumps and data files) */
   double region[6];
-  /* n keeps particles whose id is a multiple of n, or each n-th row without ids; 1 (default): all; of dumps and data files */
+  /* n keeps particles whose id is a multiple of n, or each n-th row without ids; 1 (default): all (dumps and data files) */
   int64_t stride;
-  /* positions in the box, also moved by the image counts (unwrapped), or in units of the box (scaled): 0 absolute (default), 1
-   * unwrapped or 2 scaled; of dumps and data files */
+  /* points in the box (absolute), moved by the image counts (unwrapped), or in units of the box (scaled): 0 absolute (default),
+   * 1 unwrapped or 2 scaled (dumps and data files) */
   granular_coordinates coordinates;
-  /* points as 64-bit or 32-bit floats: 0 double (default) or 1 single; of dumps */
+  /* points as 64-bit or 32-bit floats: 0 double (default) or 1 single (dumps) */
   int single_precision;
   /* a point that is subtracted from the points before any rounding */
   double origin[3];
-  /* rows in the order of their ids; of dumps and data files */
+  /* rows in the order of their ids (dumps and data files) */
   int sort_by_id;
-  /* drawing of contacts and bonds across periodic faces: to the nearest image, or from end to end as the file has them: 0
-   * minimum_image (default), 1 split or 2 as_written; of dumps of local data, restart files and data files */
+  /* contacts and bonds across periodic faces: to the nearest image, split at the faces into rows of their own, or from end to
+   * end: 0 minimum_image (default), 1 split or 2 as_written (dumps of local data, restart files and data files) */
   int periodic_lines;
   /* number of threads; 0 (default): one per core */
   int threads;

@@ -9,6 +9,7 @@
 #include "granular/parallel/executor.h"
 
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -123,6 +124,29 @@ using namespace granular_c;
 
 namespace
 {
+/// Gives a table whose lines are parts of rows as many rows.
+void repeat_rows(Table& table)
+{
+  const std::vector<std::int64_t>& rows = table.lines.rows;
+  const auto repeat = [&](Block& block)
+  {
+    const std::size_t bytes = block.bytes() / static_cast<std::size_t>(table.rows);
+    Block made(rows.size() * bytes, block.pool());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      std::memcpy(static_cast<char*>(made.data()) + i * bytes,
+        static_cast<const char*>(block.data()) + static_cast<std::size_t>(rows[i]) * bytes, bytes);
+    }
+    block = std::move(made);
+  };
+  if (!rows.empty())
+  {
+    std::ranges::for_each(table.arrays, repeat, &TableArray::block);
+    repeat(table.lines.lengths);
+    table.rows = table.lines.count;
+  }
+}
+
 /// Frames with the timestep of an earlier one in the same file.
 std::int64_t count_repeated(const FileIndex& file)
 {
@@ -256,18 +280,13 @@ std::unique_ptr<granular_frame> granular_run::read(
       "another kind of file",
       where_of(this->index().first_piece(frame)));
   }
-  if (asked.periodic_lines == PeriodicLines::Split)
-  {
-    throw ArgumentError(
-      "expected periodic_lines that leave a line for each row, got split (1), for which see the "
-      "readers of ParaView");
-  }
   Request request = asked;
   request.pool = pool;
   pool->next_frame();
   SerialCommunicator alone;
   Notices notices;
   Tables read = run_.read(frame, request, this->offer(frame), alone, notices, caller);
+  repeat_rows(request.bonds ? read.bonds : read.rows);
   auto made = request.bonds
     ? std::make_unique<granular_frame>(RowKind::Lines, std::move(read.bonds), local_known_columns())
     : std::make_unique<granular_frame>(

@@ -166,7 +166,8 @@ TEST(CMisuse, ChoicesThatThereAreNot)
   };
   refused_request([](auto& request) { request.stride = 0; }, "stride of at least 1, got 0");
   refused_request([](auto& request) { request.table = 1; }, "expected table 0, got 1");
-  refused_request([](auto& request) { request.periodic_lines = 1; }, "got split (1)");
+  refused_request(
+    [](auto& request) { request.periodic_lines = 3; }, "periodic_lines from 0 to 2, got 3");
   refused_request([](auto& request)
     { request.coordinates = static_cast<granular_coordinates>(-77); },
     "coordinates from 0 to 2, got -77");

@@ -63,7 +63,7 @@ ROOMS = {room: words.split() for room, words in (
     ("sorting", "common memory parallel particles"),
     ("writing", "common bytes parallel frames"),
     ("lines", "common columns numbers bytes memory geometry parallel frames particles"),
-    ("grid", "common numbers bytes memory geometry parallel particles"),
+    ("grid", "common numbers bytes memory geometry parallel frames particles"),
     ("formats/dump/grammar", "common numbers bytes text frames"),
     ("formats/dump/read", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                           "formats/dump/grammar"),

@@ -10,7 +10,7 @@ import textwrap
 import tree
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "cmake"))
-from reader_options import TABLE, WIDTH, load, options_of  # noqa: E402
+from reader_options import TABLE, WIDTH, files_of, load, options_of  # noqa: E402
 
 
 # ---- types: in C, in C++ from C, in Python, in the panel ---------------------------------------------
@@ -32,8 +32,7 @@ def text_of(table, option, shown, more):
     text = option["text"] + more.get(option["type"], "")
     if option["choices"]:
         text += ": " + choices_text(option["choices"], shown)
-    files = [kind["files"] for kind in table["kind"] if kind["name"] in option["kinds"]]
-    return text + ("; of " + " and ".join(", ".join(files).rsplit(", ", 1)) if files and option["of"] == "frame" else "")
+    return text + files_of(table, option)
 
 
 def choices_text(choices, shown):

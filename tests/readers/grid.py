@@ -57,6 +57,7 @@ reader.UpdatePipeline(1200)
 image = servermanager.Fetch(reader)
 assert image.GetDimensions() == theirs.GetDimensions() == (5, 5, 7)
 assert numpy.allclose(image.GetBounds(), theirs.GetBounds(), rtol=1e-6)
+assert image.GetFieldData().GetAbstractArray("Boundary").GetValue(0) == "pp pp ff"
 assert numpy.array_equal(vtk_to_numpy(image.GetCellData().GetArray("v")).astype("float32"),
                          vtk_to_numpy(theirs.GetCellData().GetArray("Vector")))
 Delete(reader)
@@ -67,7 +68,9 @@ assert vg.open(path("ids.dump"))[-1]["id"].tolist() == list(range(1, 97))
 with warnings.catch_warnings():
     warnings.simplefilter("error")
     sorted_rows = vg.open(scrambled)[0].read()
-assert sorted_rows["id"].tolist() == list(range(1, 97))
+assert sorted_rows["id"].tolist() == list(range(1, 97)) and "id" not in list(sorted_rows)
+assert sorted_rows.units == "" and sorted_rows.box.hi.tolist() == [0.04, 0.04, 0.08] and sorted_rows.box.boundary == "pp pp ff"
+assert frame.units == "si" and numpy.array_equal(vg.open(scrambled).read(0, threads=4).points, frame.points)
 assert numpy.array_equal(sorted_rows["f_ag:grid:data"], frame["f_ag:grid:data"]) and numpy.array_equal(sorted_rows.points, frame.points)
 
 # a tilted box: middles along its edges; as points, not as an image
@@ -82,11 +85,11 @@ assert numpy.allclose(centres[:6], [[0.75, 0.5, 0.5], [1.75, 0.5, 0.5], [2.75, 0
 
 # what is wrong with others
 for name, change, words in (
-        ("twice.dump", lambda head, rows: [*named(head), *rows[:-1], rows[0]], "twice.dump"),
+        ("twice.dump", lambda head, rows: [*named(head), *rows[:-1], rows[0]], "each once"),
         ("words.dump", lambda head, rows: [*[line.replace("4 4 6", "4 4 six") for line in head], *rows], "six"),
         ("huge.dump", lambda head, rows: [*[line.replace("4 4 6", "999999 999999 999999") for line in head], *rows], "2^40"),
         ("none.dump", lambda head, rows: [*[line.replace("4 4 6", "4 0 6") for line in head], *rows], "1 and more"),
-        ("short.dump", lambda head, rows: [*named(head), *rows[:-1]], "short.dump"),
+        ("short.dump", lambda head, rows: [*named(head), *rows[:-1]], "expected 96 rows, got 95"),
         ("no_box.dump", lambda head, rows: [*head[:head.index("ITEM: BOX BOUNDS pp pp ff")], *head[head.index("ITEM: DIMENSION"):], *rows], "BOX BOUNDS")):
     try:
         with warnings.catch_warnings(record=True) as said:

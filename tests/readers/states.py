@@ -29,7 +29,7 @@ def main():
     for file, _ in SET.values():
         os.makedirs(os.path.dirname(file), exist_ok=True)
         shutil.copy(os.path.join(DATA, file), file)
-    shutil.copy(os.path.join(DATA, "good/readers.pvsm"), "readers.pvsm")
+    shutil.copy(os.path.join(DATA, "good/states/readers.pvsm"), "readers.pvsm")
     vg.load_state("readers.pvsm")
     loaded = {proxy.GetXMLName(): proxy for proxy in GetSources().values()}
     assert set(loaded) == set(SET), loaded

@@ -2,9 +2,11 @@
 #ifndef granular_grid_cells_h
 #define granular_grid_cells_h
 
+#include "granular/frames/frame.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -111,6 +113,8 @@ struct EulerFrame
 
   /// The faces of a rectilinear grid along each axis, as in the file; otherwise empty.
   std::vector<double> faces[3];
+
+  std::optional<FrameHeader> header; ///< where the file has one, with the box and the units
 };
 
 /// The cells of all processes, with stresses where all processes that have cells have them, on rank 0; none on

@@ -17,6 +17,7 @@ Offer offer_cells(const RunPlace& place, Progress&)
   for (OfferedArray& array : offer.tables[0])
   {
     array.type = ValueType::Float64;
+    array.is_usual = array.is_usual && array.name != "id"; // cells are in their order
   }
   return offer;
 }

@@ -59,7 +59,7 @@ struct Kind
 
   /// Reads the cells of a frame, for kinds that have cells.
   EulerFrame (*cells)(const std::vector<FramePiece>& pieces,
-    const std::function<bool(std::string_view)>& wanted, Notices& notices,
+    const std::function<bool(std::string_view)>& wanted, int threads, Notices& notices,
     Progress& progress) = nullptr;
 };
 

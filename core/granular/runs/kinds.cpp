@@ -62,15 +62,17 @@ Tables read_cells(const RunPlace& place, const Request& request, const Offer&, C
   Notices& notices, Progress& progress)
 {
   const auto wanted = [&request](std::string_view name) { return is_wanted(request.wanted, name); };
-  EulerFrame cells = place.kind.cells(place.index.pieces(place.frame), wanted, notices, progress);
+  EulerFrame cells =
+    place.kind.cells(place.index.pieces(place.frame), wanted, request.threads, notices, progress);
   for (std::size_t i = 0; i < cells.centres.size(); ++i)
   {
     cells.centres[i] -= request.point_origin[i % 3];
   }
   Tables frame;
   Table& table = frame.rows;
-  table.header.timestep = place.index.first_piece(place.frame).entry.timestep;
   table.header.has_box = false;
+  table.header = cells.header.value_or(table.header);
+  table.header.timestep = place.index.first_piece(place.frame).entry.timestep;
   table.rows = cells.cells;
   if (request.points)
   {

@@ -300,7 +300,8 @@ class Frame(Mapping[str, Any]):
             return self._load_all()
         names = list(self._columns().sizes)
         ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
-        return self._run._read(self._current(), [*names, *ends], self._bonds, self._request, None)
+        whole = {name: value for name, value in self._request.items() if name != "periodic_lines"}
+        return self._run._read(self._current(), [*names, *ends], self._bonds, whole, None)
 
     def _is_array(self, name: object) -> bool:
         return name in self._columns().sizes
@@ -736,22 +737,22 @@ class Run(_Frames):
         frame           its number, from 0, or from the end: -1 (default) is the last one
         columns         names of arrays or columns, as a list or one text: "id v", ["id", "vx"]; None: all. Others are not converted and
                         take no memory; positions are always read.
-        region          bounds xlo, xhi, ylo, yhi, zlo, zhi of the particles, which belong to the region, in absolute coordinates;
-                        or three pairs; None where there is no bound; of dumps and data files
-        stride          n keeps particles whose id is a multiple of n, or each n-th row without ids; 1 (default): all; of dumps and
-                        data files
-        coordinates     positions in the box, also moved by the image counts (unwrapped), or in units of the box (scaled):
-                        "absolute" (default), "unwrapped" or "scaled"; of dumps and data files
-        precision       points as 64-bit or 32-bit floats: "double" (default) or "single"; of dumps
+        region          a box xlo, xhi, ylo, yhi, zlo, zhi in absolute coordinates, faces included: only particles in it are read;
+                        or three pairs; None where there is no bound (dumps and data files)
+        stride          n keeps particles whose id is a multiple of n, or each n-th row without ids; 1 (default): all (dumps and
+                        data files)
+        coordinates     points in the box (absolute), moved by the image counts (unwrapped), or in units of the box (scaled):
+                        "absolute" (default), "unwrapped" or "scaled" (dumps and data files)
+        precision       points as 64-bit or 32-bit floats: "double" (default) or "single" (dumps)
         origin          a point that is subtracted from the points before any rounding; shape (3,)
-        sort            rows in the order of their ids; of dumps and data files
-        periodic_lines  drawing of contacts and bonds across periodic faces: to the nearest image, or from end to end as the file
-                        has them: "minimum_image" (default), "split" or "as_written"; of dumps of local data, restart files and data
-                        files
+        sort            rows in the order of their ids (dumps and data files)
+        periodic_lines  contacts and bonds across periodic faces: to the nearest image, split at the faces into rows of their own,
+                        or from end to end: "minimum_image" (default), "split" or "as_written" (dumps of local data, restart files
+                        and data files)
         threads         number of threads; 0 (default): one per core
         progress        is called with fractions from 0 to 1; it returns False to stop
 
-        region, stride, coordinates and sort are for particles of dumps and data files. Raises vtkgranular.Error with path, line
+        Raises vtkgranular.Error with path, line
         and column; vtkgranular.ArgumentError for what cannot be, among them a column that there is not; IndexError for a frame that
         there is not.
         """
@@ -786,8 +787,8 @@ class Run(_Frames):
         """Returns the ParaView reader of the same files: see vtkgranular.reader."""
         from . import reader
 
-        own = {option.property: words_of(self._options[option.name]) for option in FILES
-               if option.type in ("text", "names") and option.name in self._options}
+        own = {option.property: _choice(option.name, value, option.choices) if option.choices else words_of(value)
+               for option in FILES if option.type in ("text", "names", "choice") and (value := self._options.get(option.name))}
         return reader(self._paths, dt=self._options.get("dt"), **{**own, **properties})
 
     def close(self) -> None:
@@ -834,10 +835,9 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
 
     paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files. Dumps in every form, contacts
-                    and bonds (dump local), restart files, data files, decompositions and Euler cells are told apart by their contents.
+                    and bonds (dump local), restart files, data files, decompositions, Euler cells and grids are told apart by their contents.
     kind            "dump", "local", "restart", "data", "euler", "decomposition" or "grid"; None (default): as the contents say
-    dt              time of one timestep, greater than 0, in the unit of the run; default: times are timesteps, unless the files
-                    hold times
+    dt              time of one timestep, greater than 0, in the unit of the run; by default 1, unless the files hold times
     column_names    columns of binary dumps that do not name them: "id type x y z vx vy vz"; or a list
     preset          order of the columns of contacts and bonds, by its name
     column_map      names of the columns of contacts and bonds, one for each column; or a list

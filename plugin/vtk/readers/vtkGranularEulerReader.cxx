@@ -63,10 +63,11 @@ void pass(Archive& archive, typename Archive::template Passed<Form>& form)
  */
 granular::EulerFrame ReadCells(const granular::Kind& kind,
   const std::vector<granular::FramePiece>& pieces,
-  const std::function<bool(std::string_view)>& wanted, std::vector<granular::RegularGrid>* grids,
-  granular::Notices& notices, granular::Progress& progress)
+  const std::function<bool(std::string_view)>& wanted, int threads,
+  std::vector<granular::RegularGrid>* grids, granular::Notices& notices,
+  granular::Progress& progress)
 {
-  granular::EulerFrame all = kind.cells(pieces, wanted, notices, progress);
+  granular::EulerFrame all = kind.cells(pieces, wanted, threads, notices, progress);
   if (grids)
   {
     NameFile(granular::where_of(pieces.front().file.path, pieces.front().entry),
@@ -198,8 +199,8 @@ void vtkGranularEulerReader::Internals::LookFurther()
       granular::Notices notices; // are given again where cells are shown
       std::vector<granular::RegularGrid> grids;
       ReadCells(
-        this->Run.kind(), pieces, [](std::string_view) { return false; }, &grids, notices,
-        progress);
+        this->Run.kind(), pieces, [](std::string_view) { return false; }, this->GetThreads(),
+        &grids, notices, progress);
       form.IsImage = grids.size() <= 1;
       form.Grid = grids.size() == 1 ? grids.front().grid : granular::EulerGrid{};
       ExtentOf(form.Grid); // can be had
@@ -283,14 +284,21 @@ void vtkGranularEulerReader::Internals::Show(Shown& shown)
   };
   std::vector<granular::RegularGrid> grids;
   const granular::EulerFrame frame = ReadCells(this->Run.kind(), shown.Pieces, wanted,
-    cells ? &grids : nullptr, shown.Notices, shown.Progress);
+    this->GetThreads(), cells ? &grids : nullptr, shown.Notices, shown.Progress);
   if (cells && this->Known.IsImage)
   {
     NameFile(shown.Where, [&] { CheckImage(this->Known, grids); });
   }
   granular::FrameHeader header;
-  header.box = FindBounds(frame, grids);
-  header.box.boundary = "ff ff ff";
+  if (frame.header)
+  {
+    header = *frame.header;
+  }
+  else
+  {
+    header.box = FindBounds(frame, grids);
+    header.box.boundary = "ff ff ff";
+  }
   header.timestep = shown.Pieces.front().entry.timestep;
   this->Fill(shown, frame, grids);
   FillHeader(vtkDataObject::GetData(shown.Outputs)->GetFieldData(), header,

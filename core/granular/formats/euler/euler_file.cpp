@@ -172,7 +172,8 @@ void append(EulerFrame& all, const EulerFrame& more, std::set<std::string>& lost
 }
 
 EulerFrame read_euler_pieces(const std::vector<FramePiece>& pieces,
-  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress)
+  const std::function<bool(std::string_view)>& wanted, int /*threads*/, Notices& notices,
+  Progress& progress)
 {
   EulerFrame all;
   std::set<std::string> lost;

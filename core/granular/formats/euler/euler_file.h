@@ -35,9 +35,10 @@ EulerFrame read_euler(const ByteSource& source, const FrameEntry& entry,
   const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);
 
 /// Decodes all pieces of a frame as one, with the arrays that all pieces with cells have; a notice names each of the others. There
-/// are no faces if several pieces have cells.
+/// are no faces if several pieces have cells. threads: for Kind::cells; one reads.
 EulerFrame read_euler_pieces(const std::vector<FramePiece>& pieces,
-  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);
+  const std::function<bool(std::string_view)>& wanted, int threads, Notices& notices,
+  Progress& progress);
 
 /// Returns the names of the arrays of a frame, without reading their values.
 std::vector<std::string> euler_array_names(

@@ -33,7 +33,7 @@ void check_ids(const TableArray* ids, const Where& where)
 }
 
 template <class Value>
-bool add_values(EulerFrame& frame, const TableArray& array)
+bool add_values(EulerFrame& frame, TableArray& array)
 {
   const auto components = static_cast<int>(array.info.columns.size());
   if (!holds<Value>(array, array.info.columns.size()))
@@ -42,6 +42,7 @@ bool add_values(EulerFrame& frame, const TableArray& array)
   }
   const auto values = values_in<Value>(&array, array.info.columns.size());
   frame.arrays.push_back({ array.info.name, components, { values.begin(), values.end() } });
+  array.block = {}; // or there would be two of all
   return true;
 }
 
@@ -97,7 +98,8 @@ bool is_grid_file(const std::string& path) noexcept
 }
 
 EulerFrame read_grid(const std::vector<FramePiece>& pieces,
-  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress)
+  const std::function<bool(std::string_view)>& wanted, int threads, Notices& notices,
+  Progress& progress)
 {
   const FramePiece& piece = pieces.front();
   const Where where = where_of(piece);
@@ -105,6 +107,7 @@ EulerFrame read_grid(const std::vector<FramePiece>& pieces,
   Request request;
   request.points = false;
   request.sort_by_id = has_ids;
+  request.threads = threads;
   request.wanted = [&](std::string_view name, bool) { return name == "id" || wanted(name); };
   Table rows = read_dump(pieces, request, notices, progress);
   check_ids(find_array(rows, "id"), where);
@@ -119,7 +122,8 @@ EulerFrame read_grid(const std::vector<FramePiece>& pieces,
   EulerFrame frame;
   frame.cells = rows.rows;
   place_cells(frame, rows.header);
-  for (const TableArray& array : rows.arrays)
+  frame.header = rows.header;
+  for (TableArray& array : rows.arrays)
   {
     const bool taken = !wanted(array.info.name) || add_values<double>(frame, array) ||
       add_values<std::int64_t>(frame, array) || add_values<std::int32_t>(frame, array);

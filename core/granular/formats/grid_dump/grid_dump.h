@@ -26,6 +26,7 @@ bool is_grid_file(const std::string& path) noexcept;
 /// processes write their cells one after the other. Cells of a box that is not tilted have faces. Throws Error with path and line;
 /// Cancelled.
 EulerFrame read_grid(const std::vector<FramePiece>& pieces,
-  const std::function<bool(std::string_view)>& wanted, Notices& notices, Progress& progress);
+  const std::function<bool(std::string_view)>& wanted, int threads, Notices& notices,
+  Progress& progress);
 }
 #endif

@@ -50,7 +50,8 @@ def add_option(group: Any, option: Option) -> None:
                             "number": {"type": float, "metavar": "T"}, "count": {"type": int, "metavar": "N"},
                             "threads": {"type": int, "metavar": "N"}, "names": {"metavar": "NAMES"},
                             "region": {"type": region, "metavar": "BOUNDS"}}.get(option.type, {})
-    group.add_argument("--" + option.name.replace("_", "-"), help=option.text.replace("%", "%%"), **more)
+    text = option.text + ("; - where there is no bound" if option.type == "region" else "")
+    group.add_argument("--" + option.name.replace("_", "-"), help=text.replace("%", "%%"), **more)
 
 
 def region(text: str) -> list[float | None]:

@@ -173,6 +173,8 @@ def run(arguments: argparse.Namespace) -> None:
             return
         if arguments.coordinates:
             raise ValueError(f"{shown(arguments.out)}: --coordinates is for .npz, .csv and files of VTK; dumps say by --columns which they have: xs xu x")
+        if arguments.periodic_lines:
+            raise ValueError(f"{shown(arguments.out)}: --periodic-lines is for .npz, .csv and files of VTK; dumps have the ends as they were")
         part = numbers if arguments.stride in (None, 1) and not arguments.region else \
             (opened._part(number, **asked) for number in numbers._numbers())
         write(arguments.out, part, style=arguments.style or "", dialect=arguments.dialect, columns=" ".join(words), numbers=arguments.numbers,

@@ -273,7 +273,7 @@ void TextHeader::parse_grid()
 {
   if (rows_of_ != RowsOf::Cells && rows_of_ != RowsOf::Any)
   {
-    return this->skip_section();
+    this->fail("ITEM: NUMBER OF, of atoms or other things", section_);
   }
   constexpr std::int64_t most = std::int64_t{ 1 } << 40;
   std::string_view line = this->value_line();
