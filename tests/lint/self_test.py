@@ -483,10 +483,10 @@ page = "A size that there is not. At least 3; default 7."
             for folder in ("core", "xml", "cmake"):
                 shutil.copytree(os.path.join(self.ROOT, folder), os.path.join(root, folder))
             self.assertEqual(list(options.check(root)), [])
-            with open(os.path.join(root, options.TABLE), "a", encoding="utf-8") as table:
+            with open(os.path.join(root, reader_options.TABLE), "a", encoding="utf-8") as table:
                 table.write(self.PRETEND)
             self.assertEqual(len(list(options.check(root))), 4)
-            made = options.made(root)
+            made = reader_options.made(root)
             for name, text in made.items():
                 with open(os.path.join(root, name), "w", encoding="utf-8") as stream:
                     stream.write(text)
