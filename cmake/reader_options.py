@@ -80,11 +80,12 @@ def files_of(table, option):
 
 
 def python_tables(table):
+    def row(option):
+        told = option["text"] + files_of(table, option)
+        return (*(option[key] for key in ("name", "property", "c", "type", "default")), tuple(option["choices"]), told)
+
     def rows(scope):
-        keys = ("name", "property", "c", "type", "default", "choices", "text")
-        values = [tuple(tuple(option[key]) if key == "choices" else option[key] + files_of(table, option) if key == "text" else option[key]
-                        for key in keys) for option in options_of(table, scope)]
-        return "".join(f"\n    Option{each!r}," for each in values)
+        return "".join(f"\n    Option{row(option)!r}," for option in options_of(table, scope))
 
     kinds = sorted(table["kind"], key=lambda kind: kind["number"])
     return PYTHON_TABLES.format(kinds=tuple(kind["name"] for kind in kinds), readers=tuple(dict.fromkeys(kind["reader"] for kind in table["kind"])),
@@ -208,16 +209,13 @@ def c_defaults(table, scope, struct):
 
 def from_c(table, scope):
     return ["  " + FROM_C[option["type"]].format(**option, most=len(option["choices"]) - 1) for option in options_of(table, scope)
-            if option["type"] in FROM_C]
+            if option["type"] in FROM_C]  # TimestepSize is not one of RunOptions
 
 
 # ---- Python ----------------------------------------------------------------------------------------
-
-
 def python_signature(table, scope, left_out=()):
-    words = [f"{option['name']}: {PYTHON_TYPES[option['type']]} = {option['default']!r}".replace("'", '"')
-             for option in options_of(table, scope) if option["name"] not in left_out]
-    return words
+    return [f"{option['name']}: {PYTHON_TYPES[option['type']]} = {option['default']!r}".replace("'", '"')
+            for option in options_of(table, scope) if option["name"] not in left_out]
 
 
 def python_kinds(table):
@@ -233,8 +231,6 @@ def python_docs(table, scope, indent, width):
         first = " " * indent + f"{option['name']:<{width}}"
         lines += textwrap.wrap(text, WIDTH, initial_indent=first, subsequent_indent=" " * (indent + width), break_on_hyphens=False)
     return lines
-
-
 
 
 # ---- files -----------------------------------------------------------------------------------------
@@ -269,7 +265,6 @@ def signature(path, text, name, words):
 def made(root):
     """{path: text} of all that comes from the table."""
     table = load(root)
-    files = {}
     regions = {
         "core/c/granular.h": [
             (r"^  GRANULAR_KIND_AUTOMATIC = -1,$", r"^\} granular_kind;$", c_kinds(table)),
@@ -284,6 +279,7 @@ def made(root):
              [*python_kinds(table), *python_docs(table, "files", 4, 16)]),
             (r"^ {24}take no memory; positions are always read\.$", r"^ {8}progress {8}is called", python_docs(table, "frame", 8, 16))],
     }
+    files = {}
     for path, parts in regions.items():
         text = read(root, path)
         for begin, end, lines in parts:

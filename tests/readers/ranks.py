@@ -15,15 +15,25 @@ NUMBERS = {name: number for number, name in enumerate(LINES)}  # of words, for t
 CONTACTS = "x1 y1 z1 x2 y2 z2 id1 id2 periodic forcex forcey forcez"
 
 
-def few(count):
-    """A file of contacts with fewer rows than there are ranks."""
-    name = f"few_{count}.dump"
+def made(name, text):
+    """A file that the first rank writes."""
     if all_ranks.ranks.GetLocalProcessId() == 0:
         with open(name, "w") as file:
-            file.write(f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n{count}\nITEM: ENTRIES x1 y1 z1 x2 y2 z2 id1 id2\n" +
-                       "1 1 1 2 2 2 7 8\n" * count)
+            file.write(text)
     all_ranks.wait()
     return os.path.abspath(name)
+
+
+def few(count):
+    """A file of contacts with fewer rows than there are ranks."""
+    return made(f"few_{count}.dump", f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n{count}\nITEM: ENTRIES x1 y1 z1 x2 y2 z2 id1 id2\n" +
+                "1 1 1 2 2 2 7 8\n" * count)
+
+
+def grid():
+    """A grid whose first column is named id, as `dump_modify colname 1 id` does it."""
+    with open(os.path.join(GOOD, "grid", "grid.dump")) as file:
+        return made("grid.dump", file.read().replace("c_pg:grid:data[1]", "id"))
 
 
 # reader, files below good, times, outputs, properties: each of them with each value
@@ -46,7 +56,7 @@ TABLE = (
     ("Restart", "restart/fibres.restart", (None,), (1,), {"PeriodicLines": LINES[1:]}),
     ("Restart", "restart/parts.base.restart", (None,), (0, 1), {}),
     ("Euler", "euler_?000.vtk", (1000, 2000, 3000, 4000), (0,), {}),
-    ("Euler", "grid/ids.dump", (None,), (0,), {}),
+    ("Euler", grid(), (None,), (0,), {}),
     ("Decomposition", "decomposition/all.vtk", (0,), (0,), {}),
 )
 

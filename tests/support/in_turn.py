@@ -17,7 +17,7 @@ import subprocess
 import sys
 import traceback
 
-# What each rank executes before a script, those that do not run the script too.
+# Executed by each rank before a script, also by those that do not run the script.
 SAY_INTO = """
 import os, sys
 sys.stdout.flush()

@@ -58,7 +58,6 @@ std::vector<std::size_t> first_with_rows(const RunIndex& index)
   }
   return { frame };
 }
-
 }
 
 constinit const Kind euler_kind = { .number = 4,

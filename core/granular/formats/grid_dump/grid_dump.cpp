@@ -115,9 +115,8 @@ EulerFrame read_grid(const std::vector<FramePiece>& pieces,
   {
     notices.push_back({ where,
       "the grid has no column id: its rows are taken for cells along x, then y, then z. Where "
-      "several "
-      "processes wrote them, dump_modify sort id makes them so, and colname 1 id names a column of "
-      "compute property/grid" });
+      "several processes wrote them, dump_modify sort id makes them so, and colname 1 id names a "
+      "column of compute property/grid" });
   }
   EulerFrame frame;
   frame.cells = rows.rows;
