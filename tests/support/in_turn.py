@@ -17,11 +17,12 @@ import subprocess
 import sys
 import traceback
 
-# Executed by each rank before a script, also by those that do not run the script.
-SAY_INTO = """
+# Executed by each rank before a script, also by those that do not run the script but write files of their own.
+ENTER = """
 import os, sys
+os.chdir({folder!r})
 sys.stdout.flush()
-said = os.open(f"{path}.{{os.getpid()}}", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+said = os.open({path!r} + f".{{os.getpid()}}", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
 os.dup2(said, 1)
 os.dup2(said, 2)
 os.close(said)
@@ -32,8 +33,7 @@ def run(simple, output, said, name, words):
     """Runs a script; what goes wrong is printed, and the next one can run."""
     folder = os.environ["GRANULAR_OUTPUT"] = os.path.join(output, name)
     os.makedirs(folder, exist_ok=True)
-    os.chdir(folder)
-    simple.ProgrammableSource(Script=SAY_INTO.format(path=os.path.join(said, name))).UpdatePipeline()
+    simple.ProgrammableSource(Script=ENTER.format(folder=folder, path=os.path.join(said, name))).UpdatePipeline()
     sys.argv[:] = words.split()
     sys.path[0] = os.path.dirname(sys.argv[0])
     try:
