@@ -35,6 +35,7 @@ def load(root):
     for option in table["option"]:
         option.setdefault("c", option["name"])
         option.setdefault("core", option["c"])
+        option.setdefault("property", "")
         option.setdefault("kinds", [])
         option.setdefault("choices", [])
         option.setdefault("default", option["choices"][0] if option["choices"] else None if option["type"] in ("point", "region", "number")
@@ -146,13 +147,14 @@ def expand(root, text, table=None):
 
 # ---- types: in C, in C++ from C, in Python, in the panel ---------------------------------------------
 C_TYPES = {"text": "const char* {}", "names": "const char* {}", "choice": "int {}", "flag": "int {}", "count": "int64_t {}",
-           "threads": "int {}", "number": "double {}", "point": "double {}[3]", "region": "double {}[6]"}
+           "threads": "int {}", "int": "int {}", "number": "double {}", "point": "double {}[3]", "region": "double {}[6]"}
 FROM_C = {"text": "made.{core} = text_of(given.{c});", "names": "made.{core} = text_of(given.{c});",
           "choice": 'take_choice(made.{core}, given.{c}, {most}, "{c}");', "flag": "made.{core} = given.{c} != 0;",
           "count": 'made.{core} = at_least({minimum}, given.{c}, "{c}");',
+          "int": 'made.{core} = at_least({minimum}, given.{c}, "{c}");',
           "threads": "made.{core} = given.{c} > 0 ? given.{c} : available_cores();",
           "point": "std::copy_n(given.{c}, 3, made.{core}.begin());", "region": "std::copy_n(given.{c}, 6, made.{core}.begin());"}
-PYTHON_TYPES = {"text": "str", "names": "str | Iterable[str]", "choice": "str", "flag": "bool", "count": "int", "threads": "int",
+PYTHON_TYPES = {"text": "str", "names": "str | Iterable[str]", "choice": "str", "flag": "bool", "count": "int", "int": "int", "threads": "int",
                 "number": "float | None", "point": "Any", "region": "Any"}
 PYTHON_MORE = {"names": "; or a list", "point": "; shape (3,)", "region": "; or three pairs; None where there is no bound"}
 C_MORE = {"region": "; an axis with lo > hi (default) is not restricted; no NaN"}
@@ -194,6 +196,10 @@ def c_kinds(table):
     rows = sorted(table["kind"], key=lambda kind: kind["number"])
     words = [f"  GRANULAR_KIND_{kind['c']} = {kind['number']}" + ("," if kind is not rows[-1] else "") for kind in rows]
     return [f"{word:<33} /* {kind['text']} */" for word, kind in zip(words, rows)]
+
+
+def core_kinds(table, form):
+    return [form.format(f"{kind['c'].lower()}_kind") for kind in table["kind"]]
 
 
 def c_defaults(table, scope, struct):
@@ -265,7 +271,12 @@ def signature(path, text, name, words):
 def made(root):
     """{path: text} of all that comes from the table."""
     table = load(root)
+    kinds = core_kinds(table, "&{}")
     regions = {
+        "core/granular/runs/kind.h": [(r"^/// The kinds, each in a file of its own\.$", r"^$", core_kinds(table, "extern const Kind {};"))],
+        "core/granular/runs/kinds.cpp": [
+            (r"^  static constexpr const Kind\* all\[\] = \{$", r"^  \};$",
+             [f"    {kind}," for kind in kinds[:-1]] + [f"    {kinds[-1]},"])],
         "core/c/granular.h": [
             (r"^  GRANULAR_KIND_AUTOMATIC = -1,$", r"^\} granular_kind;$", c_kinds(table)),
             (r"^  granular_kind kind; [^\n]*\*/$", r"^  granular_progress progress;", c_fields(table, "files")),

@@ -297,12 +297,14 @@ void WriteView::add(std::string name, ValueType type, int components, const void
 
 using namespace granular;
 
-granular_frame::granular_frame(
-  granular_c::RowKind rows_kind, Table&& taken, std::span<const KnownColumn> known)
+granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
+  std::span<const KnownColumn> known, const std::vector<std::string>& groups_read)
   : kind(rows_kind)
   , table(std::move(taken))
   , column_text(table.schema.text())
+  , groups(groups_read)
 {
+  std::ranges::transform(groups, std::back_inserter(group_list), &std::string::c_str);
   if (table.has_lines)
   {
     arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),
@@ -315,12 +317,13 @@ granular_frame::granular_frame(
     const std::size_t values = 3 * static_cast<std::size_t>(table.rows);
     const bool single = values > 0 && table.points.bytes() == values * sizeof(float);
     arrays.push_back({ granular_c::points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
-      table.points.data(), find_known("x", known) });
+      table.points.data(), find_known("x", known), {}, &table.points_range });
   }
   for (const TableArray& array : table.arrays)
   {
-    arrays.push_back({ array.info.name.c_str(), array.info.type, array.info.components(),
-      array.block.data(), find_known(array.info.name, known) });
+    arrays.push_back(
+      { array.info.name.c_str(), array.info.type, array.info.components(), array.block.data(),
+        find_known(array.info.name, known), table.schema.text(array.info), &array.range });
     std::ranges::transform(
       array.words, std::back_inserter(arrays.back().word_list), &std::string::c_str);
   }

@@ -27,6 +27,8 @@ struct FrameArray
   int components;
   const void* data;
   const granular::KnownColumn* known;      ///< its unit and meaning; null: not known
+  std::string columns = {};                ///< that make it
+  const granular::ValueRange* range = {};  ///< null: of an array that has none
   std::vector<const char*> word_list = {}; ///< of a Text
 };
 
@@ -38,7 +40,7 @@ struct granular_frame
 {
   /// Takes a table that was read, whose units `known` knows.
   granular_frame(granular_c::RowKind rows_kind, granular::Table&& read,
-    std::span<const granular::KnownColumn> known);
+    std::span<const granular::KnownColumn> known, const std::vector<std::string>& groups_read = {});
   granular_frame(const granular_frame&) = delete;
   granular_frame& operator=(const granular_frame&) = delete;
 
@@ -48,6 +50,8 @@ struct granular_frame
   double time = 0;               ///< of the run
   const std::string column_text; ///< of the file, separated by blanks
   std::vector<granular_c::FrameArray> arrays;
+  const std::vector<std::string> groups;
+  std::vector<const char*> group_list;
   std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from
 };
 

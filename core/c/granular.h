@@ -60,10 +60,10 @@ typedef enum granular_status
   GRANULAR_OTHER_ERROR = 8   /* an error of this library */
 } granular_status;
 
-/* The last error of the calling thread. Strings are never null. */
+/* An error, or a remark that is none, such as a frame that was left out. Strings are never null. */
 typedef struct granular_error
 {
-  granular_status status;
+  granular_status status; /* GRANULAR_OK of a remark */
   const char* message; /* "path:line: column 'name': expected ..., got ..." */
   const char* text;    /* the message without the position */
   const char* path;    /* empty if there is none */
@@ -71,6 +71,7 @@ typedef struct granular_error
   int64_t byte;        /* of a binary file, from 0; -1: not known */
   const char* column;  /* as the file spells it; empty if there is none */
   int system_error;    /* errno where the system refused an operation; 0: something else */
+  const char* topic;   /* remarks of one topic say the same of many frames: the first one is enough; empty: each is new */
 } granular_error;
 
 /* Returns the error of the last function that failed on this thread; never null. Valid until the next failure. */
@@ -84,8 +85,8 @@ GRANULAR_API const char* granular_version(void);
  * stays as it was until a refresh ends; to refresh the run at work is GRANULAR_BAD_ARGUMENT. */
 typedef int (*granular_progress)(double fraction, void* user);
 
-/* Called with each remark of a function that is not an error, such as a frame that was left out: "path:line: text". */
-typedef void (*granular_notice)(const char* text, void* user);
+/* Called with each remark of a function, whose strings stay during the call. */
+typedef void (*granular_notice)(const granular_error* remark, void* user);
 
 /* ---- runs ------------------------------------------------------------------------------------ */
 
@@ -103,6 +104,19 @@ typedef GRANULAR_ENUM(granular_kind)
   GRANULAR_KIND_DECOMPOSITION = 5, /* subdomains of ranks */
   GRANULAR_KIND_GRID = 6          /* dump grid: cells */
 } granular_kind;
+
+/* Returns in *kind what a file is by its contents; GRANULAR_KIND_AUTOMATIC for none of these kinds, or no file. */
+GRANULAR_API granular_status granular_find_kind(const char* path, granular_kind* kind);
+
+/* Ranks that open and read together. all_gather gets as many bytes on each rank, and stores those of all, one rank after the other:
+ * MPI_Allgather(mine, bytes, MPI_BYTE, all, bytes, MPI_BYTE, comm). It returns 0; after another value the run cannot be used. */
+typedef struct granular_ranks
+{
+  int rank; /* of this process, from 0 to size - 1 */
+  int size;
+  int (*all_gather)(const void* mine, void* all, size_t bytes, void* user);
+  void* user;
+} granular_ranks;
 
 /* Options of granular_open. granular_open_options_init sets the defaults; null strings are empty. */
 typedef struct granular_open_options
@@ -132,6 +146,9 @@ typedef struct granular_open_options
   granular_progress progress; /* may be null */
   granular_notice notice;     /* may be null */
   void* user;                 /* for both */
+  /* null (default): this process alone. Else all ranks open, refresh and read in the same order, each from one thread. Errors and remarks
+     are then those of all, and each reads its part of a frame: see pieces. The struct is copied; its user stays until the run is closed */
+  const granular_ranks* ranks;
 } granular_open_options;
 
 GRANULAR_API void granular_open_options_init(granular_open_options* options);
@@ -215,6 +232,7 @@ typedef struct granular_array_facts
   int is_usual; /* 0: read only if asked for by name, such as coordinates that make the points */
   const char* unit; /* SI unit under `units si`; "-" none; empty: not known */
   const char* meaning;
+  const char* columns; /* of the file, one for each component, separated by blanks: "vx vy vz"; empty: made of others */
 } granular_array_facts;
 
 /* Returns in *count the number of arrays of a frame, and fills the first `most` of them; arrays may be null if most is 0.
@@ -259,11 +277,17 @@ typedef struct granular_request
   /* contacts and bonds across periodic faces: to the nearest image, split at the faces into rows of their own, or from end to
    * end: 0 minimum_image (default), 1 split or 2 as_written (dumps of local data, restart files and data files) */
   int periodic_lines;
+  /* part of the rows that is read, from 0 to pieces - 1 (dumps, dumps of local data, restart files and data files) */
+  int piece;
+  /* number of parts, which together are all rows; 0 (default): one for each rank, and the whole without ranks (dumps, dumps of
+   * local data, restart files and data files) */
+  int pieces;
   /* number of threads; 0 (default): one per core */
   int threads;
   granular_progress progress;       /* may be null */
   granular_notice notice;           /* may be null */
   void* user;                       /* for both */
+  int ranges; /* 1: the ranges of points and arrays are found while they are read (dumps and data files) */
 } granular_request;
 
 GRANULAR_API void granular_request_init(granular_request* request);
@@ -324,6 +348,10 @@ typedef struct granular_frame_header
   size_t digit_count;               /* one for each column, or 0 */
   const char* dialect;              /* "LIGGGHTS" or "LAMMPS"; empty: not known */
   size_t arrays;                    /* number of them */
+  const char* row_label;            /* word for rows: ATOMS, ENTRIES */
+  const char* shape_sizes;          /* what the array shape holds: "half axes" or "diameters"; empty: there is none */
+  const char* const* groups;        /* of a restart file: their names */
+  size_t group_count;
 } granular_frame_header;
 
 GRANULAR_API granular_status granular_header(
@@ -341,6 +369,8 @@ typedef struct granular_array
   size_t word_count;
   const char* unit;
   const char* meaning;
+  const char* columns; /* as in granular_array_facts; not used by writers */
+  const double* range; /* minimum and maximum of each component, of the rows that were read; null: not asked for, no rows, or one is not finite */
 } granular_array;
 
 /* Returns an array by its number, from 0. */

@@ -14,7 +14,7 @@ namespace
 struct LastError
 {
   std::string message, text, path, column;
-  granular_error error = { GRANULAR_OK, "", "", "", 0, -1, "", 0 };
+  granular_error error = { GRANULAR_OK, "", "", "", 0, -1, "", 0, "" };
 
   granular_status set(granular_status status, std::string whole, const std::string& words,
     const granular::Where& where, int system_error = 0) noexcept
@@ -25,12 +25,12 @@ struct LastError
     path = where.path;
     column = where.column;
     error = { status, message.c_str(), text.c_str(), path.c_str(), where.line, where.byte,
-      column.c_str(), system_error };
+      column.c_str(), system_error, "" };
     return status;
   }
   catch (const std::exception&)
   {
-    error = { status, "out of memory", "out of memory", "", 0, -1, "", 0 };
+    error = { status, "out of memory", "out of memory", "", 0, -1, "", 0, "" };
     return status;
   }
 };
@@ -58,7 +58,9 @@ granular_array array_of(const granular_frame& frame, const FrameArray& array)
   return { array.name, static_cast<granular_type>(array.type), array.components, frame.table.rows,
     array.data, array.word_list.empty() ? nullptr : array.word_list.data(), array.word_list.size(),
     array.known == nullptr ? "" : array.known->unit.data(),
-    array.known == nullptr ? "" : array.known->meaning.data() };
+    array.known == nullptr ? "" : array.known->meaning.data(), array.columns.c_str(),
+    array.range != nullptr && array.range->known() ? array.range->components()[0].data()
+                                                   : nullptr };
 }
 }
 
@@ -95,6 +97,17 @@ extern "C"
   }
 
   // ---- runs --------------------------------------------------------------------------------------
+  granular_status granular_find_kind(const char* path, granular_kind* kind)
+  {
+    return guarded(
+      [&]
+      {
+        const granular::Kind* const found = granular::find_kind(&needed(path, "a path"));
+        needed(kind, "kind") =
+          found == nullptr ? GRANULAR_KIND_AUTOMATIC : static_cast<granular_kind>(found->number);
+      });
+  }
+
   void granular_open_options_init(granular_open_options* options)
   {
     if (options != nullptr)
@@ -129,7 +142,7 @@ extern "C"
       [&]
       {
         Caller caller(progress, notice, user);
-        needed(run, "run").refresh(caller);
+        granular::do_together(needed(run, "run").ranks(), [&] { run->refresh(caller); });
       });
   }
 
@@ -211,7 +224,7 @@ extern "C"
           (&needed(arrays, "arrays"))[i] = { all[i].name.c_str(),
             static_cast<granular_type>(all[i].type), all[i].components, all[i].is_usual ? 1 : 0,
             known == nullptr ? "" : known->unit.data(),
-            known == nullptr ? "" : known->meaning.data() };
+            known == nullptr ? "" : known->meaning.data(), all[i].columns.c_str() };
         }
       });
   }
@@ -238,10 +251,10 @@ extern "C"
       {
         needed(out, "out") = nullptr;
         const std::shared_lock lock(needed(run, "run").mutex);
-        const granular_request given = taken(request, granular_request_init);
-        const Wanted wanted(given);
-        Caller caller(given.progress, given.notice, given.user);
-        *out = run->read(run->number_of(frame), wanted, caller).release();
+        *out = granular::do_together(run->ranks(),
+          [&] {
+            return run->read(frame, taken(request, granular_request_init));
+          }).release();
       });
   }
 
@@ -253,26 +266,28 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        granular_request named = taken(request, granular_request_init);
-        std::vector<const char*> names;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          names.push_back(&needed((&needed(destinations, "destinations"))[i].array, "an array"));
-        }
-        named.arrays = names.data();
-        named.array_count = names.size();
-        const Wanted wanted(named);
-        Caller caller(named.progress, named.notice, named.user);
-        const std::unique_ptr<granular_frame> read =
-          run->read(run->number_of(frame), wanted, caller);
-        if (rows != nullptr)
-        {
-          *rows = read->table.rows;
-        }
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          copy_array(*read, destinations[i]);
-        }
+        granular::do_together(run->ranks(),
+          [&]
+          {
+            granular_request named = taken(request, granular_request_init);
+            std::vector<const char*> names;
+            for (std::size_t i = 0; i < count; ++i)
+            {
+              names.push_back(
+                &needed((&needed(destinations, "destinations"))[i].array, "an array"));
+            }
+            named.arrays = names.data();
+            named.array_count = names.size();
+            const std::unique_ptr<granular_frame> read = run->read(frame, named);
+            if (rows != nullptr)
+            {
+              *rows = read->table.rows;
+            }
+            for (std::size_t i = 0; i < count; ++i)
+            {
+              copy_array(*read, destinations[i]);
+            }
+          });
       });
   }
 
@@ -305,6 +320,14 @@ extern "C"
           : *from.dialect == granular::Dialect::Lammps ? "LAMMPS"
                                                        : "LIGGGHTS";
         made.arrays = frame->arrays.size();
+        made.row_label = from.counted.c_str();
+        const granular::ShapeSizes sizes =
+          find_shape_sizes(frame->table.schema, from.dialect == granular::Dialect::Lammps);
+        made.shape_sizes = sizes == granular::ShapeSizes::None ? ""
+          : sizes == granular::ShapeSizes::HalfAxes            ? "half axes"
+                                                               : "diameters";
+        made.groups = frame->group_list.data();
+        made.group_count = frame->group_list.size();
         needed(header, "header") = made;
       });
   }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run.h"
 
+#include "caller_ranks.h"
+
 #include "granular/bytes/find_files.h"
+#include "granular/common/archive.h"
+#include "granular/common/pass.h"
 #include "granular/common/words.h"
 #include "granular/geometry/region.h"
 #include "granular/lines/line_columns.h"
@@ -21,16 +25,12 @@ namespace
 {
 const Kind& choose_kind(granular_kind wanted, const std::string& path)
 {
-  if (wanted == GRANULAR_KIND_AUTOMATIC)
+  if (wanted != GRANULAR_KIND_AUTOMATIC)
   {
-    return kind_of_file(path);
+    return kind_of_number(wanted);
   }
-  const auto found = std::ranges::find(granular::kinds(), static_cast<int>(wanted), &Kind::number);
-  if (found == granular::kinds().end())
-  {
-    throw ArgumentError("expected a kind of granular_kind, got " + std::to_string(wanted));
-  }
-  return **found;
+  const Kind* const found = find_kind(path);
+  return found == nullptr ? dump_kind : *found; // whose error says what was expected
 }
 
 template <class Choice>
@@ -78,22 +78,39 @@ void take(Request& made, const granular_request& given)
   std::copy_n(given.origin, 3, made.point_origin.begin());
   made.sort_by_id = given.sort_by_id != 0;
   take_choice(made.periodic_lines, given.periodic_lines, 2, "periodic_lines");
+  made.piece = at_least(0, given.piece, "piece");
+  made.pieces = at_least(0, given.pieces, "pieces");
   made.threads = given.threads > 0 ? given.threads : available_cores();
 }
+}
+
+void Caller::tell(const Notices& notices, Communicator& ranks) const
+{
+  ArchiveWriter packer;
+  pass(packer, notices);
+  ranks.broadcast(packer.bytes, 0);
+  ArchiveReader unpacker{ packer.bytes };
+  Notices of_first;
+  pass(unpacker, of_first);
+  this->tell(of_first);
 }
 
 void Caller::tell(const Notices& notices) const
 {
   for (const Notice& notice : notices)
   {
+    const std::string message = to_string(notice);
+    const granular_error remark = { GRANULAR_OK, message.c_str(), notice.text.c_str(),
+      notice.where.path.c_str(), notice.where.line, notice.where.byte, notice.where.column.c_str(),
+      0, notice.topic.c_str() };
     if (notice_ != nullptr)
     {
-      notice_(to_string(notice).c_str(), user_);
+      notice_(&remark, user_);
     }
   }
 }
 
-Wanted::Wanted(const granular_request& given)
+Wanted::Wanted(const granular_request& given, const Communicator& ranks)
   : table(given.table)
 {
   if (given.arrays == nullptr && given.array_count > 0)
@@ -112,6 +129,17 @@ Wanted::Wanted(const granular_request& given)
   const Request::Choice choice = [all, list = names](std::string_view name, bool is_usual)
   { return all ? is_usual : std::ranges::find(list, name) != list.end(); };
   take(request, given);
+  if (request.pieces == 0 && request.piece == 0)
+  {
+    request.piece = ranks.rank();
+    request.pieces = ranks.size();
+  }
+  if (request.piece >= request.pieces)
+  {
+    throw ArgumentError("expected a piece below the number of pieces, " +
+      std::to_string(request.pieces) + ", got " + std::to_string(request.piece));
+  }
+  request.ranges = given.ranges != 0;
   request.points = given.points != 0 && choice(points_name, true);
   request.bonds = table == 1;
   request.wanted = request.bonds ? [](std::string_view, bool) { return false; } : choice;
@@ -173,17 +201,27 @@ public:
 }
 
 granular_run::granular_run(std::vector<std::string> patterns, const granular_open_options& options)
-  : timestep_size_(options.timestep_size)
+  : ranks_(make_ranks(options.ranks))
+  , timestep_size_(options.timestep_size)
   , patterns_(std::move(patterns))
-  , run_(choose_kind(options.kind, find_files(patterns_).front()))
 {
-  if (!(timestep_size_ > 0) || !std::isfinite(timestep_size_))
-  {
-    throw ArgumentError("expected a timestep_size greater than 0, got " + to_text(timestep_size_));
-  }
-  run_.set_options(run_options(options));
-  Caller caller(options.progress, options.notice, options.user);
-  this->refresh(caller);
+  do_together(*ranks_,
+    [&]
+    {
+      const bool first = ranks_->rank() == 0;
+      std::int64_t kind =
+        first ? choose_kind(options.kind, find_files(patterns_).front()).number : 0;
+      ranks_->sum({ &kind, 1 });
+      run_ = Run(kind_of_number(kind));
+      if (!(timestep_size_ > 0) || !std::isfinite(timestep_size_))
+      {
+        throw ArgumentError(
+          "expected a timestep_size greater than 0, got " + to_text(timestep_size_));
+      }
+      run_.set_options(run_options(options));
+      Caller caller(options.progress, options.notice, options.user);
+      this->refresh(caller);
+    });
 }
 
 void granular_run::refresh(Caller& caller)
@@ -198,9 +236,14 @@ void granular_run::refresh(Caller& caller)
   const std::lock_guard refreshing(
     refresh_mutex_); // others, and functions for progress, see the run as it was meanwhile
   Notices notices;
-  Run updated = run_.without_offers(); // after an error the run is as it was
-  SerialCommunicator alone;
-  updated.refresh(find_files(patterns_), run_.options(), alone, notices, caller);
+  Run updated = run_.without_offers();    // after an error the run is as it was
+  const bool first = ranks_->rank() == 0; // which looks for all
+  do_together(*ranks_,
+    [&]
+    {
+      updated.refresh(first ? find_files(patterns_) : std::vector<std::string>(), run_.options(),
+        *ranks_, notices, caller);
+    });
   std::vector<double> new_times = updated.index().times(timestep_size_, notices);
   std::vector<LeftOut> new_left_out;
   for (const FileIndex& file : updated.index().files())
@@ -214,7 +257,7 @@ void granular_run::refresh(Caller& caller)
     times = std::move(new_times);
     left_out = std::move(new_left_out);
   }
-  caller.tell(notices);
+  caller.tell(notices, *ranks_);
 }
 
 std::size_t granular_run::number_of(std::int64_t frame) const
@@ -243,18 +286,16 @@ const std::vector<OfferedArray>& granular_run::arrays(std::size_t frame, int tab
     throw ArgumentError(std::string("expected table 0") + (this->kind().has_bonds ? " or 1" : "") +
       ", got " + std::to_string(table));
   }
-  const Offer& offer = this->offer(frame);
-  if (!offer.error.empty())
-  {
-    throw FormatError(offer.error, offer.where);
-  }
-  return offer.tables[static_cast<std::size_t>(table)];
+  return this->offer(frame).tables[static_cast<std::size_t>(table)];
 }
 
 std::unique_ptr<granular_frame> granular_run::read(
-  std::size_t frame, const Wanted& wanted, Caller& caller)
+  std::int64_t number, const granular_request& given)
 {
   const AtWork at_work(*this);
+  const std::size_t frame = this->number_of(number);
+  const Wanted wanted(given, *ranks_);
+  Caller caller(given.progress, given.notice, given.user);
   const std::vector<OfferedArray>& there = this->arrays(frame, wanted.table);
   for (const std::string& name : wanted.names)
   {
@@ -283,20 +324,23 @@ std::unique_ptr<granular_frame> granular_run::read(
   Request request = asked;
   request.pool = pool;
   pool->next_frame();
-  SerialCommunicator alone;
+  std::vector<std::string> names = wanted.names;
+  names.push_back(given.arrays == nullptr ? "all" : "named");
+  Communicator& group = run_.group(frame, request, names, *ranks_, alone_);
   Notices notices;
-  Tables read = run_.read(frame, request, this->offer(frame), alone, notices, caller);
+  SharedProgress progress(caller, group);
+  Tables read = run_.read(frame, request, this->offer(frame), group, notices, progress);
   repeat_rows(request.bonds ? read.bonds : read.rows);
   auto made = request.bonds
     ? std::make_unique<granular_frame>(RowKind::Lines, std::move(read.bonds), local_known_columns())
     : std::make_unique<granular_frame>(
-        this->kind().rows, std::move(read.rows), this->kind().columns());
+        this->kind().rows, std::move(read.rows), this->kind().columns(), read.groups);
   if (made->kind != RowKind::Subdomains) // which are where the file has them
   {
     made->origin = request.point_origin;
   }
   made->time = times[frame];
   made->index = shared_index;
-  caller.tell(notices);
+  caller.tell(notices, group);
   return made;
 }

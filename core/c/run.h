@@ -6,6 +6,7 @@
 #include "granular.h"
 
 #include "granular/memory/block_pool.h"
+#include "granular/parallel/communicator.h"
 #include "granular/runs/run.h"
 
 #include <algorithm>
@@ -39,6 +40,9 @@ public:
 
   void tell(const granular::Notices& notices) const;
 
+  /// Tells the notices of the first rank on all ranks that have worked together. Collective.
+  void tell(const granular::Notices& notices, granular::Communicator& ranks) const;
+
 private:
   granular_progress progress_;
   granular_notice notice_;
@@ -49,7 +53,7 @@ private:
 /// The wanted part of a frame, checked.
 struct Wanted
 {
-  explicit Wanted(const granular_request& given);
+  Wanted(const granular_request& given, const granular::Communicator& ranks);
 
   granular::Request request;
   int table = 0;
@@ -65,14 +69,15 @@ struct granular_run
   void refresh(granular_c::Caller& caller);
   std::size_t number_of(std::int64_t frame) const; ///< throws ArgumentError
 
+  granular::Communicator& ranks() { return *ranks_; }
   const granular::Kind& kind() const { return run_.kind(); }
   const granular::RunIndex& index() const { return run_.index(); }
 
   /// The arrays of a frame; found once for all frames with the same columns.
   const std::vector<granular::OfferedArray>& arrays(std::size_t frame, int table);
 
-  std::unique_ptr<granular_frame> read(
-    std::size_t frame, const granular_c::Wanted& wanted, granular_c::Caller& caller);
+  /// Collective.
+  std::unique_ptr<granular_frame> read(std::int64_t frame, const granular_request& given);
 
   std::shared_mutex mutex;
   std::shared_ptr<const granular::RunIndex> shared_index; ///< that of the run, for frames
@@ -94,9 +99,11 @@ private:
   /// Returns what the files tell of a frame.
   const granular::Offer& offer(std::size_t frame);
 
+  std::unique_ptr<granular::Communicator> ranks_;
+  granular::SerialCommunicator alone_;
   double timestep_size_;
   std::vector<std::string> patterns_;
-  granular::Run run_;
+  granular::Run run_ = granular::Run(granular::dump_kind);
   std::mutex refresh_mutex_; ///< locked first
   std::mutex offers_mutex_;
 };

@@ -383,6 +383,42 @@ TEST(CInterface, WordsAreIndicesIntoAList)
   }
 }
 
+TEST(CInterface, KindsGroupsColumnsAndRanges)
+{
+  granular_kind kind = GRANULAR_KIND_AUTOMATIC;
+  EXPECT_EQ(granular_find_kind(good("restart/style_sphere.restart").c_str(), &kind), GRANULAR_OK);
+  EXPECT_EQ(kind, GRANULAR_KIND_RESTART);
+  EXPECT_EQ(granular_find_kind("no/such.dump", &kind), GRANULAR_OK);
+  EXPECT_EQ(kind, GRANULAR_KIND_AUTOMATIC);
+  granular_frame_header header = {};
+  const FrameHandle restart = read_frame(open_run(good("restart/style_sphere.restart")), 0);
+  ASSERT_EQ(granular_header(restart.get(), &header), GRANULAR_OK);
+  ASSERT_GE(header.group_count, 1U);
+  EXPECT_STREQ(header.groups[0], "all");
+
+  granular_request request;
+  granular_request_init(&request);
+  request.ranges = 1;
+  const FrameHandle grains = read_frame(open_run(good("grains.dump")), -1, &request);
+  const granular_array v = array_of(grains, "v");
+  EXPECT_STREQ(v.columns, "vx vy vz");
+  const std::vector<double> values = doubles(grains, "v");
+  ASSERT_NE(v.range, nullptr);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double least = values[axis];
+    double most = values[axis];
+    for (std::size_t i = axis; i < values.size(); i += 3)
+    {
+      least = std::min(least, values[i]);
+      most = std::max(most, values[i]);
+    }
+    EXPECT_EQ(v.range[2 * axis], least);
+    EXPECT_EQ(v.range[2 * axis + 1], most);
+  }
+  EXPECT_EQ(array_of(read_frame(open_run(good("grains.dump")), -1), "v").range, nullptr);
+}
+
 TEST(CInterface, ErrorsSayWhere)
 {
   const std::string path = std::string(GRANULAR_OUTPUT) + "/broken.dump";
@@ -417,8 +453,8 @@ TEST(CInterface, NoticesAndProgressReachTheCaller)
   granular_request request;
   granular_request_init(&request);
   request.user = &seen;
-  request.notice = [](const char* text, void* user)
-  { static_cast<Seen*>(user)->notices.emplace_back(text); };
+  request.notice = [](const granular_error* remark, void* user)
+  { static_cast<Seen*>(user)->notices.emplace_back(remark->message); };
   request.progress = [](double fraction, void* user)
   {
     auto* const mine = static_cast<Seen*>(user);

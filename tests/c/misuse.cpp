@@ -197,7 +197,8 @@ TEST(CMisuse, ArraysThatCannotBeWritten)
   const double x[] = { 1, 2, 3 };
   const std::int32_t word = 3;
   const char* const words[] = { "H" };
-  const granular_array good_points = { "points", GRANULAR_FLOAT64, 3, 1, x, nullptr, 0, "", "" };
+  const granular_array good_points = { "points", GRANULAR_FLOAT64, 3, 1, x, nullptr, 0, "", "", "",
+    nullptr };
   const auto refused = [&](const granular_array& array, const std::string& expected)
   {
     const std::string path = std::string(GRANULAR_OUTPUT) + "/arrays.dump";
@@ -214,20 +215,28 @@ TEST(CMisuse, ArraysThatCannotBeWritten)
     granular_abandon(writer);
     EXPECT_FALSE(std::ifstream(path).good());
   };
-  refused({ nullptr, GRANULAR_FLOAT64, 1, 1, x, nullptr, 0, "", "" }, "expected a name");
-  refused({ "a", static_cast<granular_type>(11), 1, 1, x, nullptr, 0, "", "" }, "expected a type");
-  refused({ "a", GRANULAR_FLOAT64, 0, 1, x, nullptr, 0, "", "" }, "at least one component");
-  refused({ "a", GRANULAR_FLOAT64, 1, 1, nullptr, nullptr, 0, "", "" }, "data, got null");
-  refused({ "a", GRANULAR_TEXT, 1, 1, &word, nullptr, 0, "", "" }, "words");
-  refused({ "a", GRANULAR_TEXT, 1, 1, &word, words, 1, "", "" }, "indices of 1 words, got 3");
-  refused({ "points", GRANULAR_FLOAT64, 2, 1, x, nullptr, 0, "", "" }, "three components");
+  refused(
+    { nullptr, GRANULAR_FLOAT64, 1, 1, x, nullptr, 0, "", "", "", nullptr }, "expected a name");
+  refused({ "a", static_cast<granular_type>(11), 1, 1, x, nullptr, 0, "", "", "", nullptr },
+    "expected a type");
+  refused(
+    { "a", GRANULAR_FLOAT64, 0, 1, x, nullptr, 0, "", "", "", nullptr }, "at least one component");
+  refused(
+    { "a", GRANULAR_FLOAT64, 1, 1, nullptr, nullptr, 0, "", "", "", nullptr }, "data, got null");
+  refused({ "a", GRANULAR_TEXT, 1, 1, &word, nullptr, 0, "", "", "", nullptr }, "words");
+  refused({ "a", GRANULAR_TEXT, 1, 1, &word, words, 1, "", "", "", nullptr },
+    "indices of 1 words, got 3");
+  refused(
+    { "points", GRANULAR_FLOAT64, 2, 1, x, nullptr, 0, "", "", "", nullptr }, "three components");
   const void* const between = reinterpret_cast<const char*>(x) + 1;
-  refused({ "a", GRANULAR_FLOAT64, 1, 1, between, nullptr, 0, "", "" }, "a multiple of 8 bytes");
+  refused({ "a", GRANULAR_FLOAT64, 1, 1, between, nullptr, 0, "", "", "", nullptr },
+    "a multiple of 8 bytes");
 
   // a claim of rows that the arrays, or the memory of any machine, do not have
   for (const std::int64_t rows : { std::int64_t{ 0 }, std::int64_t{ 1 } })
   {
-    const granular_array array = { "points", GRANULAR_FLOAT64, 3, rows, x, nullptr, 0, "", "" };
+    const granular_array array = { "points", GRANULAR_FLOAT64, 3, rows, x, nullptr, 0, "", "", "",
+      nullptr };
     granular_content content;
     granular_content_init(&content);
     content.rows = INT64_MAX;

@@ -55,7 +55,8 @@ void copy_run(const std::string& from, const std::string& to,
 granular_array numbers(const char* name, const std::vector<double>& values, int components = 1)
 {
   return { name, GRANULAR_FLOAT64, components,
-    static_cast<std::int64_t>(values.size()) / components, values.data(), nullptr, 0, "", "" };
+    static_cast<std::int64_t>(values.size()) / components, values.data(), nullptr, 0, "", "", "",
+    nullptr };
 }
 }
 
@@ -115,8 +116,8 @@ TEST(CWriting, ArraysOfAProgram)
   const std::vector<std::int32_t> word = { 1, 0 };
   const char* const words[] = { "Cu", "Fe" };
   const granular_array arrays[] = { numbers("points", x, 3), numbers("v", v, 3),
-    { "id", GRANULAR_INT32, 1, 2, id.data(), nullptr, 0, "", "" },
-    { "element", GRANULAR_TEXT, 1, 2, word.data(), words, 2, "", "" } };
+    { "id", GRANULAR_INT32, 1, 2, id.data(), nullptr, 0, "", "", "", nullptr },
+    { "element", GRANULAR_TEXT, 1, 2, word.data(), words, 2, "", "", "", nullptr } };
   const granular_box box = { {}, 0, { 0, 0, 0 }, { 3, 0, 0, 0, 4, 0, 0, 0, 5 }, "pp pp ff" };
   granular_content content_of;
   granular_content_init(&content_of);
@@ -178,7 +179,7 @@ TEST(CWriting, BondsAndCellsAndSubdomainsOfAProgram)
   const std::vector<double> hi = { 1, 1, 1, 2, 1, 1 };
   const std::vector<std::int64_t> nlocal = { 10, 20 };
   const granular_array domains[] = { numbers("lo", lo, 3), numbers("hi", hi, 3),
-    { "nlocal", GRANULAR_INT64, 1, 2, nlocal.data(), nullptr, 0, "", "" } };
+    { "nlocal", GRANULAR_INT64, 1, 2, nlocal.data(), nullptr, 0, "", "", "", nullptr } };
   write(output("mine.decomposition"), domains, 3, 2);
   const FrameHandle read = read_frame(open_run(output("mine.decomposition")), 0);
   EXPECT_EQ(doubles(read, "hi"), hi);

@@ -94,9 +94,9 @@ int stop(double fraction, void* user)
   return --*static_cast<int*>(user) == 0 ? 1 : 0;
 }
 
-void take_notice(const char* text, void*)
+void take_notice(const granular_error* remark, void*)
 {
-  require(text[0] != '\0', "a notice");
+  require(remark->message[0] != '\0' && remark->text[0] != '\0', "a notice");
 }
 
 /// All that the calls of an input have made so far.

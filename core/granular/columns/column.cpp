@@ -274,6 +274,16 @@ std::string ColumnSchema::text() const
   return join_words(columns_, " ", &ColumnInfo::name);
 }
 
+std::string ColumnSchema::text(const ArrayInfo& array) const
+{
+  if (std::ranges::any_of(array.columns, [](int column) { return column < 0; }))
+  {
+    return {};
+  }
+  return join_words(array.columns, " ",
+    [this](int column) { return columns_[static_cast<std::size_t>(column)].name; });
+}
+
 void ColumnSchema::set_types(std::span<const TypeChange> changes)
 {
   if (changes.empty())

@@ -128,6 +128,9 @@ public:
   /// Returns the names, separated by blanks, in the file's order and spelling.
   std::string text() const;
 
+  /// Returns those of an array, one for each component; nothing for an array that no columns make.
+  std::string text(const ArrayInfo& array) const;
+
   /// Changes the types of columns. An integer column with other numbers becomes Float64 and is no longer open, together with
   /// the other columns of its array; so does one of Int32 or Float64 that becomes Int64, which stays open. An unknown column
   /// with words becomes Text by itself, which may split an array. Ids that are not integers lose the role Id.

@@ -340,14 +340,14 @@ void SerialCommunicator::do_exchange(const char* from, std::span<const std::int6
   std::copy_n(from, from_bytes[0], to);
 }
 
-void SerialCommunicator::send(std::string_view, int)
+void Communicator::send(std::string_view, int)
 {
-  throw std::logic_error("expected another rank, got the only one");
+  throw std::logic_error("expected another rank, and ranks with messages");
 }
 
-void SerialCommunicator::receive(std::string&, int)
+void Communicator::receive(std::string&, int)
 {
-  throw std::logic_error("expected another rank, got the only one");
+  throw std::logic_error("expected another rank, and ranks with messages");
 }
 
 std::unique_ptr<OutputFile> SerialCommunicator::open_together(const std::string& path)

@@ -65,15 +65,15 @@ public:
   virtual bool called_off() { return false; }
 
   /// Sends bytes to another rank, which must receive them; messages between two ranks keep their order. May wait until they
-  /// are received. Throws std::logic_error, like receive, if the other is this rank. receive throws std::bad_alloc if memory
-  /// is lacking for the bytes; the message is then lost, and the next one can be received.
-  virtual void send(std::string_view bytes, int to) = 0;
-  virtual void receive(std::string& bytes, int from) = 0;
+  /// are received. Throws std::logic_error, like receive, if the other is this rank, or ranks have no messages. receive throws
+  /// std::bad_alloc if memory is lacking for the bytes; the message is then lost, and the next one can be received.
+  virtual void send(std::string_view bytes, int to);
+  virtual void receive(std::string& bytes, int from);
 
   /// Returns a file that all ranks write to at their own offsets, each from its main thread, or null if these ranks cannot.
   /// Collective, like its destructor and its finish, before which all ranks know that all have written their part
   /// (do_together). An error on one rank is an error on all, except in write_at.
-  virtual std::unique_ptr<OutputFile> open_together(const std::string& path) = 0;
+  virtual std::unique_ptr<OutputFile> open_together(const std::string&) { return {}; }
 
 protected:
   /// Building blocks of the functions above, only for several ranks. No rank has failed when they are called.
@@ -109,8 +109,6 @@ public:
   int rank() const noexcept override { return 0; }
   int size() const noexcept override { return 1; }
   int node_size() const noexcept override { return 1; }
-  void send(std::string_view bytes, int to) override;
-  void receive(std::string& bytes, int from) override;
   std::unique_ptr<OutputFile> open_together(const std::string& path) override;
 
 private:

@@ -68,15 +68,18 @@ extern const Kind dump_kind;
 extern const Kind local_kind;
 extern const Kind restart_kind;
 extern const Kind data_file_kind;
-extern const Kind euler_kind;
 extern const Kind decomposition_kind;
+extern const Kind euler_kind;
 extern const Kind grid_kind;
 
 /// Returns all kinds, in the order in which they are asked whether a file is theirs.
 std::span<const Kind* const> kinds() noexcept;
 
-/// Returns the kind of a file by its contents; that of dumps, whose error says what was expected, if there is none.
-const Kind& kind_of_file(const std::string& path) noexcept;
+/// Returns the kind of a file by its contents, or null.
+const Kind* find_kind(const std::string& path) noexcept;
+
+/// Returns the kind with a number. Throws ArgumentError.
+const Kind& kind_of_number(std::int64_t number);
 
 // ---- what several kinds need ----------------------------------------------------------------------
 /// Returns frames for Kind::looked_at: one for each list of columns, or those between which bonds may have come.

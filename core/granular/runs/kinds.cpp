@@ -9,16 +9,35 @@ namespace granular
 {
 std::span<const Kind* const> kinds() noexcept
 {
-  static constexpr const Kind* all[] = { &dump_kind, &local_kind, &restart_kind, &data_file_kind,
-    &decomposition_kind, &euler_kind, &grid_kind };
+  // clang-format off: the rows are made
+  static constexpr const Kind* all[] = {
+    &dump_kind,
+    &local_kind,
+    &restart_kind,
+    &data_file_kind,
+    &decomposition_kind,
+    &euler_kind,
+    &grid_kind,
+  };
+  // clang-format on
   return all;
 }
 
-const Kind& kind_of_file(const std::string& path) noexcept
+const Kind* find_kind(const std::string& path) noexcept
 {
   const auto found =
     std::ranges::find_if(kinds(), [&](const Kind* kind) { return kind->is_file(path); });
-  return found == kinds().end() ? dump_kind : **found;
+  return found == kinds().end() ? nullptr : *found;
+}
+
+const Kind& kind_of_number(std::int64_t number)
+{
+  const auto found = std::ranges::find(kinds(), number, &Kind::number);
+  if (found == kinds().end())
+  {
+    throw ArgumentError("expected a kind of granular_kind, got " + std::to_string(number));
+  }
+  return **found;
 }
 
 std::vector<std::size_t> one_for_columns(const RunIndex& index)
@@ -53,7 +72,7 @@ std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const 
   for (const ArrayInfo& array : schema.arrays())
   {
     arrays.push_back({ array.name, array.type, array.components(), !array.position_form,
-      find_known(array.name, table) });
+      find_known(array.name, table), schema.text(array) });
   }
   return arrays;
 }

@@ -31,7 +31,8 @@ struct OfferedArray
   bool is_usual =
     true; ///< false: read only if asked for by name, such as coordinates that make the points
   const KnownColumn* known =
-    nullptr; ///< its unit and meaning; null: not known, or told by another rank
+    nullptr;                ///< its unit and meaning; null: not known, or told by another rank
+  std::string columns = {}; ///< that make it: see ColumnSchema::text
 };
 
 template <typename Archive>
@@ -41,6 +42,7 @@ void pass(Archive& archive, typename Archive::template Passed<OfferedArray>& arr
   archive.number(array.type);
   archive.number(array.components);
   archive.number(array.is_usual);
+  archive.text(array.columns);
 }
 
 /// All that the files of a frame tell before its rows are read.

@@ -120,6 +120,23 @@ std::vector<OfferedArray> Run::arrays(std::size_t table) const
   return all;
 }
 
+Communicator& Run::group(std::size_t frame, const Request& request,
+  const std::vector<std::string>& names, Communicator& ranks, Communicator& alone) const
+{
+  ArchiveWriter same;
+  same.number(frame);
+  pass_form(same, request, options_);
+  pass(same, names);
+  const std::vector<std::string> all =
+    ranks.all_gather(std::to_string(request.piece) + ' ' + same.bytes);
+  bool together = request.pieces == ranks.size();
+  for (std::size_t rank = 0; rank < all.size(); ++rank)
+  {
+    together = together && all[rank] == std::to_string(rank) + ' ' + same.bytes;
+  }
+  return together ? ranks : alone;
+}
+
 Tables Run::read(std::size_t frame, const Request& request, const Offer& offer, Communicator& ranks,
   Notices& notices, Progress& progress) const
 {

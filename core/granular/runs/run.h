@@ -52,6 +52,11 @@ public:
   /// Returns the arrays of a table that look() found, frame by frame: names may repeat.
   std::vector<OfferedArray> arrays(std::size_t table) const;
 
+  /// Returns `ranks` if each of them asks for its own part of one frame in one way, and otherwise `alone`: ranks that read together must
+  /// agree on everything. names: of the arrays that are asked for. Collective.
+  Communicator& group(std::size_t frame, const Request& request,
+    const std::vector<std::string>& names, Communicator& ranks, Communicator& alone) const;
+
   /// Reads a frame, with what offer() or known_offer() returns for it. Collective. Throws Error; Cancelled.
   Tables read(std::size_t frame, const Request& request, const Offer& offer, Communicator& ranks,
     Notices& notices, Progress& progress) const;

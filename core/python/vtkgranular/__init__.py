@@ -8,7 +8,8 @@ Arrays, with numpy alone:
     run.read(columns=["id", "v"], stride=10)  a part of a frame
     vtkgranular.write("new.dump", {"points": x}) a file from arrays or frames
     vtkgranular.read_log("log.liggghts")         the thermo output of a run: its columns as arrays
-    vtkgranular.Run, Frame, Box, Writer, Log, Error   what these return, take and raise
+    vtkgranular.kind_of("post/run.dump")         what a file is, by its contents
+    vtkgranular.Run, Frame, Box, Writer, Log, Error, Remark   what these return, take, raise and warn of
 
 Open, show, fetch and save with paraview.simple:
 
@@ -48,9 +49,9 @@ from typing import TYPE_CHECKING, Any
 
 from ._files import files
 from ._folders import VERSION as __version__
-from ._library import ArgumentError, Cancelled, ColumnError, Error
+from ._library import ArgumentError, Cancelled, ColumnError, Error, Remark
 from ._log import Log, LogTable, read_log
-from ._run import Box, Frame, Run, open  # noqa: A004 (vtkgranular.open, as there are gzip.open and wave.open)
+from ._run import Box, Frame, Run, kind_of, open  # noqa: A004 (vtkgranular.open, as there are gzip.open and wave.open)
 from ._write import Writer, write
 
 if TYPE_CHECKING:

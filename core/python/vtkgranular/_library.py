@@ -8,14 +8,14 @@ import os
 import re
 import signal
 import threading
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
+from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p, pointer
 from typing import Any, Callable
 
 from ._folders import LIBRARY, LIBRARY_FOLDER, VERSION
 from ._options import FILES, FRAME, Option
 
 PROGRESS = CFUNCTYPE(c_int, c_double, c_void_p)
-NOTICE = CFUNCTYPE(None, c_char_p, c_void_p)
+ALL_GATHER = CFUNCTYPE(c_int, c_void_p, c_void_p, c_size_t, c_void_p)
 
 # numpy's names of the types of granular_type; the last one are indices of words
 TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64", "int32")
@@ -39,6 +39,15 @@ class Error(RuntimeError):
         return type(self), (str(self), self.path, self.line, self.byte, self.column)
 
 
+class Remark(UserWarning):
+    """A warning of a file that is no error, with path, line, byte and column as in Error.
+
+    topic   remarks of one topic say the same of many frames; empty: each is new
+    """
+
+    path, line, byte, column, topic = "", 0, -1, "", ""
+
+
 class ArgumentError(Error, ValueError):
     """What was asked for cannot be: a frame or column that there is not, arrays of a wrong shape or type."""
 
@@ -52,7 +61,10 @@ class ColumnError(ArgumentError, KeyError):
 
 class _CError(Structure):
     _fields_ = [("status", c_int), ("message", c_char_p), ("text", c_char_p), ("path", c_char_p), ("line", c_int64),
-                ("byte", c_int64), ("column", c_char_p), ("system_error", c_int)]
+                ("byte", c_int64), ("column", c_char_p), ("system_error", c_int), ("topic", c_char_p)]
+
+
+NOTICE = CFUNCTYPE(None, POINTER(_CError), c_void_p)
 
 
 def _fields_of(options: tuple[Option, ...]) -> list[tuple[str, Any]]:
@@ -60,8 +72,28 @@ def _fields_of(options: tuple[Option, ...]) -> list[tuple[str, Any]]:
     return [(option.c, types.get(option.type, c_int)) for option in options]
 
 
+class Ranks(Structure):
+    """The ranks of a communicator of mpi4py, or of anything with Get_rank, Get_size and Allgather."""
+
+    _fields_ = [("rank", c_int), ("size", c_int), ("all_gather", ALL_GATHER), ("user", c_void_p)]
+
+    def __init__(self, communicator: Any):
+        self.raised: BaseException | None = None
+
+        def all_gather(mine: int, gathered: int, count: int, _: Any) -> int:
+            try:
+                communicator.Allgather(*(memoryview((ctypes.c_ubyte * size).from_address(memory)).cast("B")
+                                         for memory, size in ((mine, count), (gathered, count * self.size))))
+            except BaseException as error:  # noqa: BLE001 (of the communicator: raised behind the library)
+                self.raised = error
+            return 1 if self.raised else 0
+
+        super().__init__(communicator.Get_rank(), communicator.Get_size(), ALL_GATHER(all_gather))
+
+
 class OpenOptions(Structure):
-    _fields_ = [("size", c_size_t), ("kind", c_int), *_fields_of(FILES), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+    _fields_ = [("size", c_size_t), ("kind", c_int), *_fields_of(FILES), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p),
+                ("ranks", POINTER(Ranks))]
 
 
 class RunFacts(Structure):
@@ -78,12 +110,12 @@ class FileFacts(Structure):
 
 class ArrayFacts(Structure):
     _fields_ = [("name", c_char_p), ("type", c_int), ("components", c_int), ("is_usual", c_int), ("unit", c_char_p),
-                ("meaning", c_char_p)]
+                ("meaning", c_char_p), ("columns", c_char_p)]
 
 
 class Request(Structure):
     _fields_ = [("size", c_size_t), ("table", c_int), ("arrays", POINTER(c_char_p)), ("array_count", c_size_t), ("points", c_int),
-                *_fields_of(FRAME), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+                *_fields_of(FRAME), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p), ("ranges", c_int)]
 
 
 class CBox(Structure):
@@ -94,12 +126,14 @@ class CBox(Structure):
 class FrameHeader(Structure):
     _fields_ = [("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("rows", c_int64), ("has_box", c_int),
                 ("box", CBox), ("coordinates", c_int), ("origin", c_double * 3), ("label", c_char_p), ("units", c_char_p),
-                ("columns", c_char_p), ("digits", POINTER(c_int)), ("digit_count", c_size_t), ("dialect", c_char_p), ("arrays", c_size_t)]
+                ("columns", c_char_p), ("digits", POINTER(c_int)), ("digit_count", c_size_t), ("dialect", c_char_p), ("arrays", c_size_t),
+                ("row_label", c_char_p), ("shape_sizes", c_char_p), ("groups", POINTER(c_char_p)), ("group_count", c_size_t)]
 
 
 class CArray(Structure):
     _fields_ = [("name", c_char_p), ("type", c_int), ("components", c_int), ("rows", c_int64), ("data", c_void_p),
-                ("words", POINTER(c_char_p)), ("word_count", c_size_t), ("unit", c_char_p), ("meaning", c_char_p)]
+                ("words", POINTER(c_char_p)), ("word_count", c_size_t), ("unit", c_char_p), ("meaning", c_char_p),
+                ("columns", c_char_p), ("range", POINTER(c_double))]
 
 
 class Format(Structure):
@@ -116,6 +150,7 @@ class Content(Structure):
 
 _NAMES = POINTER(c_char_p)
 _FUNCTIONS = {
+    "granular_find_kind": (c_char_p, POINTER(c_int)),
     "granular_open": (_NAMES, c_size_t, POINTER(OpenOptions), POINTER(c_void_p)),
     "granular_refresh": (c_void_p, PROGRESS, NOTICE, c_void_p),
     "granular_run_info": (c_void_p, POINTER(RunFacts)),
@@ -237,11 +272,13 @@ def name_bytes(name: str | bytes) -> bytes:
 
 
 class Calls:
-    """The caller's functions for progress and notices. An exception in one of them, and Ctrl-C, stop the work and are raised again."""
+    """The caller's functions for progress and notices, and ranks. An exception in one of them, and Ctrl-C, stop the work and are raised
+    again."""
 
-    def __init__(self, progress: Callable[[float], Any] | None, warn: Callable[[str], Any]):
+    def __init__(self, progress: Callable[[float], Any] | None, warn: Callable[[Any], Any], ranks: Ranks | None = None):
         self.raised: BaseException | None = None
-        self.notices: list[str] = []
+        self.notices: list[Remark] = []
+        self._ranks = ranks
         self._old_handler: Any = None
 
         def report(fraction: float, _: Any) -> int:
@@ -253,8 +290,12 @@ class Calls:
                 self.raised = error
                 return 1
 
-        def tell(notice: bytes, _: Any) -> None:
-            self.notices.append(message_of(notice))
+        def tell(notice: Any, _: Any) -> None:
+            told = notice.contents
+            remark = Remark(message_of(told.message))
+            remark.path, remark.line, remark.byte = text(told.path), told.line, told.byte
+            remark.column, remark.topic = text(told.column), text(told.topic)
+            self.notices.append(remark)
 
         # the main thread takes Ctrl-C in this function; others do without, because Python's end would end them in it
         is_called = progress is not None or threading.current_thread() is threading.main_thread()
@@ -275,6 +316,7 @@ class Calls:
         if self._old_handler is not None:
             signal.signal(signal.SIGINT, self._old_handler)
             self._old_handler = None
+        self.raised = self.raised or (self._ranks and self._ranks.raised)
         if self.raised:
             raise self.raised
         told, self.notices = self.notices, []

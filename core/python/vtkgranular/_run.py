@@ -20,13 +20,12 @@ if TYPE_CHECKING:
     import pandas
 
 #: An array that a frame has in its file: name, numpy's name of its type ("str" for words), components, unit (of runs in SI units),
-#: meaning.
-Column = namedtuple("Column", "name type components unit meaning")
+#: meaning, and the columns of the file that make it, ("vx", "vy", "vz").
+Column = namedtuple("Column", "name type components unit meaning columns")
 
-#: What a file offers: its usual columns and the others, the components of each array, and for each word that names an array or a
-#: component, the array and its place there, or None for the whole array.
-_Columns = namedtuple("_Columns", "usual others sizes words")
-
+#: What a file offers: its usual columns and the others, the names of the components of each array, and for each word that names an array
+#: or a component, the array and its place there, or None for the whole array.
+_Columns = namedtuple("_Columns", "usual others parts words")
 
 
 def _choice(what: str, given: str, choices: Sequence[str]) -> int:
@@ -58,7 +57,7 @@ def words_of(given: str | Iterable[str] | None) -> str:
     return given if isinstance(given, str) else " ".join(given or ())
 
 
-def _warn(text: str) -> None:
+def _warn(text: str | Warning) -> None:
     """Warns at the line of the caller of this package."""
     frame, level = sys._getframe(1), 2
     while frame.f_back and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
@@ -198,7 +197,7 @@ class Frame(Mapping[str, Any]):
         self._header: Any = None
         self._whole: _Handle | None = None
         self._asked: dict[str, None] = {}
-        self._notices: list[str] = []
+        self._notices: list[c.Remark] = []
         self._lock = threading.RLock()  # a function for progress may ask the frame something
 
     # ---- reading ----
@@ -232,6 +231,8 @@ class Frame(Mapping[str, Any]):
         self._header = {"step": header.timestep, "time": header.time, "has_time": bool(header.has_time), "rows": header.rows,
                         "units": c.text(header.units), "label": c.text(header.label), "columns": columns,
                         "digits": dict(zip(columns, header.digits[:header.digit_count])), "dialect": c.text(header.dialect),
+                        "row_label": c.text(header.row_label), "shape_sizes": c.text(header.shape_sizes),
+                        "groups": [c.text(name) for name in header.groups[:header.group_count]],
                         "box": Box._of(header.box) if header.has_box else None}
         return handle
 
@@ -286,7 +287,7 @@ class Frame(Mapping[str, Any]):
         return self._arrays[name]
 
     def _raise_no_column(self, name: str) -> NoReturn:
-        raise c.ColumnError(f"expected a column of {', '.join(self._columns().sizes)}, got {name!r}")
+        raise c.ColumnError(f"expected a column of {', '.join(self._columns().parts)}, got {name!r}")
 
     def _head(self, name: str) -> Any:
         if self._header is None:
@@ -298,13 +299,13 @@ class Frame(Mapping[str, Any]):
         """The frame as it is written: of contacts and bonds, the ends as the file has them."""
         if not self._is_lines() or self._wanted is not None:
             return self._load_all()
-        names = list(self._columns().sizes)
+        names = list(self._columns().parts)
         ends = [] if {"position1", "position2"} <= set(names) else ["ends"]
         whole = {name: value for name, value in self._request.items() if name != "periodic_lines"}
         return self._run._read(self._current(), [*names, *ends], self._bonds, whole, None)
 
     def _is_array(self, name: object) -> bool:
-        return name in self._columns().sizes
+        return name in self._columns().parts
 
     def _find(self, word: str) -> tuple[str, int | None]:
         """The array that a column is in, and its place there, or None for a whole array: "vx" is the first of "v"."""
@@ -373,6 +374,21 @@ class Frame(Mapping[str, Any]):
         return self._head("dialect")
 
     @property
+    def row_label(self) -> str:
+        """The word for rows in ITEM: NUMBER OF ...: "ATOMS", "ENTRIES"."""
+        return self._head("row_label")
+
+    @property
+    def shape_sizes(self) -> str:
+        """Of the array `shape`: "half axes" or "diameters"; empty if there is none."""
+        return self._head("shape_sizes")
+
+    @property
+    def groups(self) -> list[str]:
+        """The names of the groups of a restart file; empty of other files."""
+        return self._head("groups")
+
+    @property
     def columns(self) -> list[str]:
         """The columns of the file, in its order and spelling."""
         return self._head("columns")
@@ -427,38 +443,28 @@ class Frame(Mapping[str, Any]):
         return f"<frame {self._number} of {self._run!r}: step {self.step}, columns {' '.join(self)}>"
 
 
-_COMPONENTS = {"points": "x y z", "ends": "x1 y1 z1 x2 y2 z2", "image": "ix iy iz"}
+_COMPONENTS = {"points": ("x", "y", "z"), "ends": ("x1", "y1", "z1", "x2", "y2", "z2")}
 
 
-# Columns that programs spell in several ways: LIGGGHTS, LAMMPS, LIGGGHTS of old.
-_SPELLINGS = {"quat": ("quat1 quat2 quat3 quat4", "quatw quati quatj quatk"),
-              "blockiness": ("blockiness1 blockiness2", "block1 block2", "roundness1 roundness2")}
-
-
-def _component_names(name: str, count: int, columns: Iterable[str] = ()) -> list[str]:
-    """Names of the columns that make an array, as dumps spell them: as these columns, where programs spell them in several ways."""
-    if count == 1:
-        return [name]
-    spellings = [each.split() for each in _SPELLINGS.get(name, ()) if len(each.split()) == count]
-    if spellings:
-        return next((names for names in spellings if names[0] in columns), spellings[0])
-    if name in _COMPONENTS:
-        return _COMPONENTS[name].split()
-    if "_" not in name and count == 3:
-        return [name + axis for axis in "xyz"]
-    return [f"{name}[{i}]" for i in range(1, count + 1)]
+def _component_names(column: Column) -> Sequence[str]:
+    """The columns that make an array, or names like theirs of one that no columns make."""
+    if column.components == 1:
+        return [column.name]
+    if column.columns:
+        return column.columns
+    if "_" not in column.name and column.components == 3:
+        return [column.name + axis for axis in "xyz"]
+    return [f"{column.name}[{i}]" for i in range(1, column.components + 1)]
 
 
 def _columns_of(usual: list[Column], others: list[Column], points: str) -> _Columns:
-    sizes = {column.name: column.components for column in (*usual, *others)}
-    words: dict[str, tuple[str, int | None]] = {part: (points, i) for i, part in enumerate(_COMPONENTS[points].split())}
-    words |= {name: (name, None) for name in (points, *sizes) if name not in words}
-    for name, count in sizes.items():
-        if count > 1:
-            for spelling in (" ".join(_component_names(name, count)), *_SPELLINGS.get(name, ())):
-                for i, part in enumerate(spelling.split()[:count]):
-                    words.setdefault(part, (name, i))
-    return _Columns(usual, others, sizes, words)
+    parts = {column.name: _component_names(column) for column in (*usual, *others)}
+    words: dict[str, tuple[str, int | None]] = {part: (points, i) for i, part in enumerate(_COMPONENTS[points])}
+    words |= {name: (name, None) for name in (points, *parts) if name not in words}
+    for name, names in parts.items():
+        for i, part in enumerate(names):
+            words.setdefault(part, (name, i))
+    return _Columns(usual, others, parts, words)
 
 
 def component_columns(frame: Frame) -> dict[str, Any]:
@@ -469,7 +475,7 @@ def component_columns(frame: Frame) -> dict[str, Any]:
         if name in frame._arrays or name in frame:
             values = frame._get(name)
             parts = [values] if values.ndim == 1 else values.T
-            for part, component in zip(_component_names(name, len(parts) if values.ndim > 1 else 1, frame.columns), parts):
+            for part, component in zip(_COMPONENTS.get(name) or frame._columns().parts[name], parts):
                 columns.setdefault(part, component)
     return columns
 
@@ -480,8 +486,7 @@ def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
     for word in words:
         array, place = frame._find(word)
         arrays.append(array)
-        whole = _component_names(array, frame._columns().sizes.get(array, len(_COMPONENTS.get(array, "").split())), frame.columns)
-        columns += [word] if place is not None else whole
+        columns += [word] if place is not None else _COMPONENTS.get(array) or frame._columns().parts[array]
     return list(dict.fromkeys(arrays)), columns
 
 
@@ -527,7 +532,7 @@ class _Frames(Sequence[Frame]):
             raise IndexError(f"expected a frame from {-len(self)} to {len(self) - 1}, got {number}") from None
 
     def __iter__(self) -> Iterator[Frame]:
-        """Yields the frames. While one is used, another thread reads of the next one what was asked of the one before."""
+        """Yields the frames. While one is used, another thread reads of the next one what was asked of the one before, but with ranks."""
         frame: Frame | None = None
         following: Frame | None = None
         thread: threading.Thread | None = None
@@ -537,7 +542,7 @@ class _Frames(Sequence[Frame]):
                 thread.join()
             is_current = following is not None and following._state is following._run._state
             frame, following, thread = following if is_current else self[i], None, None  # type: ignore[assignment]
-            if i + 1 < len(self) and (names or whole):
+            if i + 1 < len(self) and (names or whole) and not self._run_of()._ranks:
                 following = self[i + 1]
                 # Python waits for it at the end: it calls functions of ours
                 thread = threading.Thread(target=_read_ahead, args=(following, names, whole))
@@ -589,11 +594,12 @@ class Run(_Frames):
     run.columns            the columns of the first frame that has rows
     run.kind               what the files are, as `kind` of vtkgranular.open
 
-    A run may be used by several threads, pickled, and sent to other processes, which open the files again.
+    A run may be used by several threads, pickled, and sent to other processes, which open the files again, each alone.
     """
 
-    def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None):
+    def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None, ranks: Any = None):
         self._paths, self._options = paths, options
+        self._ranks = None if ranks is None else c.Ranks(ranks)
         self._handle = None
         self._state = object()  # another one after each refresh
         self._known: dict[Any, Any] = {}
@@ -604,8 +610,10 @@ class Run(_Frames):
         kind = options.get("kind")
         given.kind = -1 if kind is None else _choice("a kind", kind, KINDS)
         _fill(given, FILES, options)
+        if self._ranks:
+            given.ranks = c.pointer(self._ranks)
         pointer = c.c_void_p()
-        with c.Calls(progress, _warn) as calls:
+        with c.Calls(progress, _warn, self._ranks) as calls:
             given.progress, given.notice = calls.progress, calls.notice
             library.granular_open(c.texts(paths), len(paths), c.byref(given), c.byref(pointer))
             self._handle: _Handle | None = _Handle(pointer, library.granular_close)
@@ -678,7 +686,7 @@ class Run(_Frames):
                 for fact in facts[:count.value]:
                     kinds[0 if fact.is_usual else 1].append(
                         Column(c.text(fact.name), "str" if fact.type == c.TEXT else c.TYPES[fact.type], fact.components,
-                               c.text(fact.unit), c.text(fact.meaning)))
+                               c.text(fact.unit), c.text(fact.meaning), tuple(c.text(fact.columns).split())))
                 self._known[key] = _columns_of(*kinds, "ends" if bonds or self.kind == "local" else "points")
             return self._known[key]
 
@@ -694,7 +702,7 @@ class Run(_Frames):
         given.points = 1 if names is None or "points" in names else 0
         _fill(given, FRAME, request)
         pointer = c.c_void_p()
-        with c.Calls(progress, warn) as calls:
+        with c.Calls(progress, warn, self._ranks) as calls:
             given.progress, given.notice = calls.progress, calls.notice
             library.granular_read(self._open(), number, c.byref(given), c.byref(pointer))
             made = _Handle(pointer, library.granular_release)  # before notices, which may be raised
@@ -730,7 +738,7 @@ class Run(_Frames):
 
     def read(self, frame: int = -1, columns: Iterable[str] | None = None, region: Any = None, stride: int = 1,
              coordinates: str = "absolute", precision: str = "double", origin: Any = None, sort: bool = False,
-             periodic_lines: str = "minimum_image", threads: int = 0,
+             periodic_lines: str = "minimum_image", piece: int = 0, pieces: int = 0, threads: int = 0,
              progress: Callable[[float], Any] | None = None) -> Frame:
         """Reads a part of a frame, and returns it.
 
@@ -749,6 +757,10 @@ class Run(_Frames):
         periodic_lines  contacts and bonds across periodic faces: to the nearest image, split at the faces into rows of their own,
                         or from end to end: "minimum_image" (default), "split" or "as_written" (dumps of local data, restart files
                         and data files)
+        piece           part of the rows that is read, from 0 to pieces - 1 (dumps, dumps of local data, restart files and data
+                        files)
+        pieces          number of parts, which together are all rows; 0 (default): one for each rank, and the whole without ranks
+                        (dumps, dumps of local data, restart files and data files)
         threads         number of threads; 0 (default): one per core
         progress        is called with fractions from 0 to 1; it returns False to stop
 
@@ -772,7 +784,7 @@ class Run(_Frames):
 
         A frame that was read in part before cannot read its rest: take it anew.
         """
-        with self._lock, c.Calls(progress, _warn) as calls:
+        with self._lock, c.Calls(progress, _warn, self._ranks) as calls:
             before, self._state = self._state, object()  # before the library changes the run for other threads
             try:
                 c.library().granular_refresh(self._open(), calls.progress, calls.notice, None)
@@ -828,10 +840,10 @@ def _region(given: Any) -> list[float]:
     return made
 
 
-def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, kind: str | None = None,
-         column_names: str | Iterable[str] = "", preset: str = "", column_map: str | Iterable[str] = "", atom_style: str = "",
-         boundary: str = "", history_layout: str = "automatic", repeated_steps: str = "auto", threads: int = 0,
-         progress: Callable[[float], Any] | None = None) -> Run:
+def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, ranks: Any = None,
+         kind: str | None = None, column_names: str | Iterable[str] = "", preset: str = "", column_map: str | Iterable[str] = "",
+         atom_style: str = "", boundary: str = "", history_layout: str = "automatic", repeated_steps: str = "auto",
+         threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
     """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
 
     paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files. Dumps in every form, contacts
@@ -850,13 +862,23 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
                     (default), "merge" or "last"
     threads         number of threads; 0 (default): one per core
     progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
+    ranks           a communicator of mpi4py: its ranks open and read together. Each gets its part of the rows of a frame, and
+                    cells and subdomains whole. All call the same functions in the same order, ask frames for the same arrays in the
+                    same order, and get the same errors of files and the same remarks. None (default): this process alone
 
     The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
     be writing it: `granular check` reports it. Raises FileNotFoundError if there is no such file, vtkgranular.Error
     with path, line and column if the files cannot be read, ValueError for a choice that there is not. Remarks that are no errors
-    are warnings.
+    are warnings, vtkgranular.Remark with path and line.
     """
     given = locals()
     options = {name: given[name] for name in ("kind", *(option.name for option in FILES)) if given[name] not in (None, "")}
     files = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
-    return Run([os.path.abspath(os.fsdecode(path)) for path in files], options, progress)
+    return Run([os.path.abspath(os.fsdecode(path)) for path in files], options, progress, ranks)
+
+
+def kind_of(path: str | os.PathLike[str]) -> str | None:
+    """Returns what a file is by its contents, as `kind` of vtkgranular.open, or None for a file of none of these kinds, or no file."""
+    kind = c.c_int()
+    c.library().granular_find_kind(c.name_bytes(os.fspath(path)), c.byref(kind))
+    return KINDS[kind.value] if kind.value >= 0 else None

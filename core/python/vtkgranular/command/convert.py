@@ -21,7 +21,7 @@ MORE = """The ending of OUT chooses: .npz (numpy), .csv, .vtp, .vtu and .vtkhdf 
 an error, an old one is as it was. A file of the run is replaced last, and only by the same kind of file."""
 
 # --threads is one of all commands, and numbers have the precision of the new file.
-_PART = [option for option in FRAME if option.name not in ("threads", "precision", "origin")]
+_PART = [option for option in FRAME if option.name not in ("threads", "precision", "origin", "piece", "pieces")]
 
 
 def options(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,6 @@
 #include "private/arrays/arrays.h"
 #include "private/local/lines.h"
 
-#include "granular/common/archive.h"
 #include "granular/runs/kind.h"
 
 #include "vtkDataObject.h"
@@ -77,8 +76,7 @@ void vtkGranularSeriesReader::Internals::Update()
   ranks.sum({ &kind, 1 });
   if (kind != this->Run.kind().number)
   {
-    this->Run = granular::Run(
-      **std::ranges::find(granular::kinds(), static_cast<int>(kind), &granular::Kind::number));
+    this->Run = granular::Run(granular::kind_of_number(kind));
   }
   granular::Notices notices;
   AlgorithmProgress progress(this->Self);
@@ -203,33 +201,6 @@ void vtkGranularSeriesReader::Internals::ShowRequested(
 }
 
 //------------------------------------------------------------------------------
-// Returns all ranks if they request the pieces of one thing, each its own; otherwise this one alone, for example if a filter asks one rank
-// for another time. Ranks that read together must agree on everything. Collective.
-granular::Communicator& vtkGranularSeriesReader::Internals::FindGroup(
-  Shown& shown, const granular::Request& request)
-{
-  granular::ArchiveWriter same;
-  same.number(shown.Number);
-  granular::pass_form(same, request, this->Run.options());
-  for (const ArrayChoice* choice : { &this->Points, &this->Cells })
-  {
-    for (const std::string& name : choice->GetWanted())
-    {
-      same.text(name);
-    }
-  }
-  granular::Communicator& ranks = this->GetRanks();
-  const std::vector<std::string> all =
-    ranks.all_gather(std::to_string(shown.Piece.Piece) + ' ' + same.bytes);
-  shown.Together = shown.Piece.Pieces == ranks.size();
-  for (std::size_t rank = 0; rank < all.size(); ++rank)
-  {
-    shown.Together = shown.Together && all[rank] == std::to_string(rank) + ' ' + same.bytes;
-  }
-  return shown.Together ? ranks : this->Alone;
-}
-
-//------------------------------------------------------------------------------
 granular::Request vtkGranularSeriesReader::Internals::MakeRequest()
 {
   granular::Request request;
@@ -255,7 +226,15 @@ void vtkGranularSeriesReader::Internals::Show(Shown& shown)
   granular::Request request = this->MakeRequest();
   request.piece = shown.Piece.Piece;
   request.pieces = shown.Piece.Pieces;
-  granular::Communicator& group = this->FindGroup(shown, request);
+  std::vector<std::string> names;
+  for (const ArrayChoice* choice : { &this->Points, &this->Cells })
+  {
+    const auto& wanted = choice->GetWanted();
+    names.insert(names.end(), wanted.begin(), wanted.end());
+  }
+  granular::Communicator& group =
+    this->Run.group(shown.Number, request, names, this->GetRanks(), this->Alone);
+  shown.Together = &group != &this->Alone;
   granular::Tables frame = this->Run.read(shown.Number, request,
     this->Run.known_offer(shown.Number), group, shown.Notices, shown.Progress);
   if (this->Run.kind().rows == granular::RowKind::Lines)

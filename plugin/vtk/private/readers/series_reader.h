@@ -147,7 +147,6 @@ struct vtkGranularSeriesReader::Internals
   std::shared_ptr<granular::BlockPool> Pool; ///< of output memory; null: none, or not made yet
 
 private:
-  granular::Communicator& FindGroup(Shown& shown, const granular::Request& request);
   void FillLines(Shown& shown, granular::Tables& frame, const granular::Request& lines);
   void FillParticles(Shown& shown, granular::Tables& frame, const granular::Request& request);
 
