@@ -129,14 +129,16 @@ def xml_property(option):
 
 
 def expand(root, text, table=None):
-    """The text with each <Shared name="X" of="Y">inside</Shared> replaced: by the property of an option, or else by xml/shared/X.xml, with
-    Y for @Of@, y for @of@ and inside for @inside@; on as many lines, so that complaints name the line of the stand-in."""
+    """The text with each <Shared name="X" of="Y">inside</Shared> replaced: by the property of an option, with the name Options by all those
+    of the base Y, or else by xml/shared/X.xml, with Y for @Of@, y for @of@ and inside for @inside@; on as many lines, so that complaints name
+    the line of the stand-in."""
     table = table or load(root)
     options = {option["property"]: option for option in table["option"]}
 
     def shared(match):
         name, of, inside = (match.group(key) or "" for key in ("name", "of", "inside"))
-        part = "\n".join(xml_property(options[name])) if name in options else read(root, f"xml/shared/{name}.xml")
+        shown = [option for option in options.values() if option.get("base") == of] if name == "Options" else [options[name]] if name in options else []
+        part = "\n".join(line for option in shown for line in xml_property(option)) or read(root, f"xml/shared/{name}.xml")
         part = part.replace("@Of@", of).replace("@of@", of.lower()).replace("@inside@", inside)
         return expand(root, part, table).replace("\n", " ") + "\n" * match.group().count("\n")
     made = SHARED.sub(shared, text)

@@ -111,6 +111,16 @@ void vtkGranularSeriesReader::SetTimestepSize(double size)
 }
 
 //------------------------------------------------------------------------------
+granular::RunOptions vtkGranularSeriesReader::Internals::MakeOptions()
+{
+  granular::RunOptions options;
+  options.repeated_steps = static_cast<granular::RepeatedSteps>(this->Self->RepeatedSteps);
+  options.threads = this->GetThreads();
+  this->SetOptions(options);
+  return options;
+}
+
+//------------------------------------------------------------------------------
 // The first call of every update. Exceptions must not pass the pipeline: where it cannot be told whether files changed, the update that
 // follows says why.
 int vtkGranularSeriesReader::ComputePipelineMTime(vtkInformation* request,

@@ -49,10 +49,7 @@ void vtkGranularSeriesReader::Internals::Update()
   {
     throw granular::IoError("no file to read: set FileNames first");
   }
-  granular::RunOptions options;
-  options.repeated_steps = static_cast<granular::RepeatedSteps>(this->Self->RepeatedSteps);
-  options.threads = this->GetThreads();
-  this->SetOptions(options);
+  const granular::RunOptions options = this->MakeOptions();
   if (!this->Run.options().tell_the_same(options))
   {
     this->LookedAt.reset();

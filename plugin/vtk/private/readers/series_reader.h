@@ -131,6 +131,11 @@ struct vtkGranularSeriesReader::Internals
   void Tell(const granular::Notices& notices, bool ofFrames);
 
   /**
+   * Returns how the files are understood, by the properties of the reader.
+   */
+  granular::RunOptions MakeOptions();
+
+  /**
    * Returns what is asked of a frame: whole, by the properties of the reader.
    */
   granular::Request MakeRequest();
