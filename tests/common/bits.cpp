@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bits.h"
 
-#include "../euler/made_particles.h"
+#include "../averages/made_particles.h"
 
 #include "granular/averages/time_average.h"
 #include "granular/geometry/positions.h"

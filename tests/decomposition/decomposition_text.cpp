@@ -2,9 +2,9 @@
 // The text of decompositions: the bytes of LIGGGHTS, and those that VTK's own writer makes of the same cells.
 #include "granular/formats/decomposition/decomposition_text.h"
 
+#include "../grid/made_subdomains.h"
 #include "../support/error_of.h"
 #include "../support/stop.h"
-#include "made_subdomains.h"
 
 #include <gtest/gtest.h>
 

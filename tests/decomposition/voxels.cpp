@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/decomposition/voxels.h"
 
+#include "../grid/made_subdomains.h"
 #include "../support/stop.h"
-#include "made_subdomains.h"
 
 #include <gtest/gtest.h>
 

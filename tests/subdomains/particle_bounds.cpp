@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bounds of the particles of processes, on one rank and on several.
+#include "../grid/made_subdomains.h"
 #include "../support/error_of.h"
 #include "../support/thread_ranks.h"
 #include "counted_frames.h"
-#include "made_subdomains.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Particles in grids and in other subdomains, against every particle compared with every face.
 #include "granular/subdomains/count_particles.h"
+#include "../grid/made_subdomains.h"
 #include "../support/error_of.h"
 #include "../support/exact_units.h"
 #include "../support/hard_case.h"
 #include "counted_frames.h"
-#include "made_subdomains.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stress, coordination and fabric of contacts in cells, against each line in each cell with 113 bits.
-#include "../kernels/exact_parts.h"
+#include "exact_parts.h"
 #include "made_touches.h"
 
 #include "granular/common/error.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../grid/sphere_box_volume.h"
 #include "made_particles.h"
-#include "sphere_box_volume.h"
 
 #include "granular/common/error.h"
 

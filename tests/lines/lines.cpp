@@ -4,10 +4,10 @@
 #include "granular/lines/minimum_image.h"
 #include "granular/memory/block_pool.h"
 
+#include "../local/text_frames.h"
 #include "../support/hard_case.h"
 #include "../support/quad.h"
 #include "../support/stop.h"
-#include "text_frames.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which rows are counted, from points of all kinds; threads, progress and cancelling.
+#include "../grid/made_subdomains.h"
 #include "../support/stop.h"
 #include "counted_frames.h"
-#include "made_subdomains.h"
 
 #include "granular/common/error.h"
 

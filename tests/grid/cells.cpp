@@ -2,8 +2,8 @@
 // Cells, gathered from processes that are threads.
 #include "granular/grid/cells.h"
 
+#include "../averages/gathered_cells.h"
 #include "../support/thread_ranks.h"
-#include "gathered_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages at points, against plain sums with 113 bits over all particles and contacts.
-#include "../kernels/exact_parts.h"
+#include "exact_parts.h"
 #include "made_points.h"
 
 #include "../support/hard_case.h"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes the reference for smoothing kernels: means over lines that are hard to compute, exact for the doubles given.
 
-    /usr/bin/python3 tests/kernels/make_kernels.py tests/data/good/kernels/kernels.txt.gz [--check]
+    /usr/bin/python3 tests/averages/make_kernels.py tests/data/good/kernels/kernels.txt.gz [--check]
 
 Needs mpmath. A run takes seconds and gives the same bytes; --check compares all with quadrature: five minutes.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages over time against those of the particles of all frames at once, one by one with exact sums.
+#include "../grid/sphere_box_volume.h"
 #include "made_particles.h"
-#include "sphere_box_volume.h"
 
 #include "granular/averages/time_average.h"
 #include "granular/common/error.h"
