@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 
 namespace granular_c
@@ -65,10 +66,10 @@ void CallerRanks::gather_parts(std::string_view mine, std::size_t most, const Ta
   {
     const std::size_t bytes = std::min(mine_.size(), most - offset);
     std::ranges::copy(mine.substr(std::min(offset, mine.size()), bytes), mine_.begin());
-    if (const int failed = ranks_.all_gather(mine_.data(), all_.data(), bytes, ranks_.user);
-        failed != 0)
+    failed_ = failed_ || ranks_.all_gather(mine_.data(), all_.data(), bytes, ranks_.user) != 0;
+    if (failed_)
     {
-      throw Error("expected all_gather to return 0, got " + std::to_string(failed));
+      throw std::runtime_error("expected all_gather to return 0, got another value");
     }
     for (std::size_t rank = 0; rank < static_cast<std::size_t>(ranks_.size); ++rank)
     {
@@ -118,7 +119,9 @@ void CallerRanks::do_gather(char* parts, std::span<const std::int64_t> counts)
 
 void CallerRanks::prepare_exchange(std::span<const std::int64_t>, std::span<const std::int64_t>)
 {
-  exchanged_.resize(static_cast<std::size_t>(ranks_.size) * static_cast<std::size_t>(ranks_.size));
+  const auto size = static_cast<std::size_t>(ranks_.size);
+  exchanged_.resize(size * size);
+  row_bytes_.assign(size, static_cast<std::int64_t>(size * sizeof(std::int64_t)));
 }
 
 void CallerRanks::do_exchange(const char* from, std::span<const std::int64_t> from_bytes, char* to,
@@ -126,9 +129,8 @@ void CallerRanks::do_exchange(const char* from, std::span<const std::int64_t> fr
 {
   const auto own = static_cast<std::size_t>(ranks_.rank);
   const std::size_t size = from_bytes.size();
-  std::ranges::fill(exchanged_, 0);
   std::ranges::copy(from_bytes, exchanged_.begin() + static_cast<std::ptrdiff_t>(own * size));
-  do_sum(exchanged_);
+  do_gather(reinterpret_cast<char*>(exchanged_.data()), row_bytes_);
   std::int64_t most = 0;
   for (std::size_t rank = 0; rank < size; ++rank)
   {

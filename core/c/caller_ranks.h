@@ -43,6 +43,8 @@ private:
   std::vector<char> mine_;
   std::vector<char> all_;
   std::vector<std::int64_t> exchanged_; ///< bytes from each rank to each
+  std::vector<std::int64_t> row_bytes_; ///< of each rank's row of these
+  bool failed_ = false;                 ///< the ranks are at odds: nothing more can be gathered
 };
 
 /// Returns the ranks of a caller, or one alone if it gives none.

@@ -60,7 +60,7 @@ typedef enum granular_status
   GRANULAR_OTHER_ERROR = 8   /* an error of this library */
 } granular_status;
 
-/* An error, or a remark that is none, such as a frame that was left out. Strings are never null. */
+/* An error, or a remark, which is no error, such as a frame that was left out. Strings are never null. */
 typedef struct granular_error
 {
   granular_status status; /* GRANULAR_OK of a remark */
@@ -105,11 +105,11 @@ typedef GRANULAR_ENUM(granular_kind)
   GRANULAR_KIND_GRID = 6          /* dump grid: cells */
 } granular_kind;
 
-/* Returns in *kind what a file is by its contents; GRANULAR_KIND_AUTOMATIC for none of these kinds, or no file. */
+/* Sets *kind by the contents of a file; GRANULAR_KIND_AUTOMATIC for none of these kinds, or no file. */
 GRANULAR_API granular_status granular_find_kind(const char* path, granular_kind* kind);
 
-/* Ranks that open and read together. all_gather gets as many bytes on each rank, and stores those of all, one rank after the other:
- * MPI_Allgather(mine, bytes, MPI_BYTE, all, bytes, MPI_BYTE, comm). It returns 0; after another value the run cannot be used. */
+/* Ranks that open and read together. all_gather is called with the same number of bytes on each rank, and stores those of all in `all`, in
+ * the order of the ranks: MPI_Allgather(mine, bytes, MPI_BYTE, all, bytes, MPI_BYTE, comm). If it does not return 0, the run is lost. */
 typedef struct granular_ranks
 {
   int rank; /* of this process, from 0 to size - 1 */
@@ -146,8 +146,9 @@ typedef struct granular_open_options
   granular_progress progress; /* may be null */
   granular_notice notice;     /* may be null */
   void* user;                 /* for both */
-  /* null (default): this process alone. Else all ranks open, refresh and read in the same order, each from one thread. Errors and remarks
-     are then those of all, and each reads its part of a frame: see pieces. The struct is copied; its user stays until the run is closed */
+  /* null (default): this process alone. Else all ranks open, refresh and read in the same order, each from one thread, and not in their
+     functions for progress and notices. Errors and remarks are those of all; each rank reads a part of a frame, see pieces, but cells and
+     subdomains whole. The struct is copied; what its user points to must exist until the run is closed */
   const granular_ranks* ranks;
 } granular_open_options;
 
@@ -232,7 +233,7 @@ typedef struct granular_array_facts
   int is_usual; /* 0: read only if asked for by name, such as coordinates that make the points */
   const char* unit; /* SI unit under `units si`; "-" none; empty: not known */
   const char* meaning;
-  const char* columns; /* of the file, one for each component, separated by blanks: "vx vy vz"; empty: made of others */
+  const char* columns; /* that hold its components, separated by blanks: "vx vy vz"; of local data by their meaning; empty: there are none */
 } granular_array_facts;
 
 /* Returns in *count the number of arrays of a frame, and fills the first `most` of them; arrays may be null if most is 0.
@@ -287,7 +288,7 @@ typedef struct granular_request
   granular_progress progress;       /* may be null */
   granular_notice notice;           /* may be null */
   void* user;                       /* for both */
-  int ranges; /* 1: the ranges of points and arrays are found while they are read (dumps and data files) */
+  int ranges; /* 1: the ranges of points and arrays are found while they are read, where that costs little; 0 (default) */
 } granular_request;
 
 GRANULAR_API void granular_request_init(granular_request* request);
@@ -311,8 +312,7 @@ GRANULAR_API granular_status granular_read_into(granular_run* run, int64_t frame
   const granular_request* request, const granular_destination* destinations, size_t count,
   int64_t* rows);
 
-/* Frees a frame and its arrays. Null does nothing. An open run keeps the memory of frames of a dump for the next ones it reads, at
- * most 256 MiB. */
+/* Frees a frame and its arrays. Null does nothing. An open run keeps the memory of frames of a dump for the next ones, up to 256 MiB. */
 GRANULAR_API void granular_release(granular_frame* frame);
 
 /* A simulation box: a corner, and the edges a, b, c one after the other; and the numbers of a dump's header, xlo xhi ylo yhi zlo
@@ -369,8 +369,8 @@ typedef struct granular_array
   size_t word_count;
   const char* unit;
   const char* meaning;
-  const char* columns; /* as in granular_array_facts; not used by writers */
-  const double* range; /* minimum and maximum of each component, of the rows that were read; null: not asked for, no rows, or one is not finite */
+  const char* columns; /* as in granular_array_facts; writers use neither this nor the range */
+  const double* range; /* minimum and maximum of each component in the rows that were read; null: not asked for, or not known */
 } granular_array;
 
 /* Returns an array by its number, from 0. */
@@ -446,7 +446,7 @@ GRANULAR_API void granular_content_init(granular_content* content);
 GRANULAR_API granular_status granular_write(
   granular_writer* writer, const granular_content* content);
 
-/* Adds a frame that was read, with the digits, columns and dialect of its file. */
+/* Adds a frame that was read, with the digits, columns and dialect of its file. A piece is written as it is: in a file of its own. */
 GRANULAR_API granular_status granular_write_frame(
   granular_writer* writer, const granular_frame* frame);
 

@@ -45,9 +45,10 @@ bool is(const granular::Error& error) noexcept
 
 granular_status status_of(const granular::Error& error) noexcept
 {
-  return is<granular::IoError>(error)  ? GRANULAR_IO_ERROR
-    : is<granular::FormatError>(error) ? GRANULAR_FORMAT_ERROR
-    : is<granular::LimitError>(error)  ? GRANULAR_LIMIT_ERROR
+  return is<granular::MemoryError>(error) ? GRANULAR_NO_MEMORY
+    : is<granular::IoError>(error)        ? GRANULAR_IO_ERROR
+    : is<granular::FormatError>(error)    ? GRANULAR_FORMAT_ERROR
+    : is<granular::LimitError>(error)     ? GRANULAR_LIMIT_ERROR
     : is<granular::UnsupportedError>(error)
     ? GRANULAR_UNSUPPORTED
     : GRANULAR_BAD_ARGUMENT; // a choice, a format, a column or a frame
@@ -142,7 +143,8 @@ extern "C"
       [&]
       {
         Caller caller(progress, notice, user);
-        granular::do_together(needed(run, "run").ranks(), [&] { run->refresh(caller); });
+        needed(run, "run").expect_idle(); // or the others would wait for it elsewhere
+        granular::do_together(run->ranks(), [&] { run->refresh(caller); });
       });
   }
 
@@ -251,6 +253,10 @@ extern "C"
       {
         needed(out, "out") = nullptr;
         const std::shared_lock lock(needed(run, "run").mutex);
+        if (run->ranks().size() > 1)
+        {
+          run->expect_idle();
+        }
         *out = granular::do_together(run->ranks(),
           [&] {
             return run->read(frame, taken(request, granular_request_init));
@@ -266,6 +272,10 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
+        if (run->ranks().size() > 1)
+        {
+          run->expect_idle();
+        }
         granular::do_together(run->ranks(),
           [&]
           {

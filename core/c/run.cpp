@@ -224,14 +224,18 @@ granular_run::granular_run(std::vector<std::string> patterns, const granular_ope
     });
 }
 
-void granular_run::refresh(Caller& caller)
+void granular_run::expect_idle() const
 {
   if (std::ranges::find(runs_at_work, this) != runs_at_work.end())
   {
-    throw ArgumentError(
-      "expected a refresh between the other calls of a run, got one from a function "
-      "for progress or notices of the same run");
+    throw ArgumentError("expected a refresh between the other calls of a run, and with ranks also "
+                        "reading, got one from a function for progress or notices "
+                        "of the same run");
   }
+}
+
+void granular_run::refresh(Caller& caller)
+{
   const AtWork at_work(*this);
   const std::lock_guard refreshing(
     refresh_mutex_); // others, and functions for progress, see the run as it was meanwhile
@@ -297,6 +301,11 @@ std::unique_ptr<granular_frame> granular_run::read(
   const Wanted wanted(given, *ranks_);
   Caller caller(given.progress, given.notice, given.user);
   const std::vector<OfferedArray>& there = this->arrays(frame, wanted.table);
+  const Offer& told = this->offer(frame);
+  if (!told.error.empty())
+  {
+    throw FormatError(told.error, told.where);
+  }
   for (const std::string& name : wanted.names)
   {
     if (name != points_name && name != ends_name && name != "length" &&
@@ -321,6 +330,13 @@ std::unique_ptr<granular_frame> granular_run::read(
       "another kind of file",
       where_of(this->index().first_piece(frame)));
   }
+  if (given.pieces > 1 &&
+    (this->kind().rows == RowKind::Cells || this->kind().rows == RowKind::Subdomains))
+  {
+    throw ArgumentError("expected no pieces of cells or subdomains, which are read whole, got " +
+        std::to_string(given.pieces),
+      where_of(this->index().first_piece(frame)));
+  }
   Request request = asked;
   request.pool = pool;
   pool->next_frame();
@@ -329,7 +345,7 @@ std::unique_ptr<granular_frame> granular_run::read(
   Communicator& group = run_.group(frame, request, names, *ranks_, alone_);
   Notices notices;
   SharedProgress progress(caller, group);
-  Tables read = run_.read(frame, request, this->offer(frame), group, notices, progress);
+  Tables read = run_.read(frame, request, told, group, notices, progress);
   repeat_rows(request.bonds ? read.bonds : read.rows);
   auto made = request.bonds
     ? std::make_unique<granular_frame>(RowKind::Lines, std::move(read.bonds), local_known_columns())

@@ -70,6 +70,9 @@ struct granular_run
   std::size_t number_of(std::int64_t frame) const; ///< throws ArgumentError
 
   granular::Communicator& ranks() { return *ranks_; }
+
+  /// Throws ArgumentError if this thread is at work on the run already: in a function for progress or notices.
+  void expect_idle() const;
   const granular::Kind& kind() const { return run_.kind(); }
   const granular::RunIndex& index() const { return run_.index(); }
 

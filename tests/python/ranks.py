@@ -56,7 +56,7 @@ def good(name):
 warnings.simplefilter("ignore")
 for name in ("grains.dump", "local/contacts.dump", "data_file/full.data"):
     parts = on_all(3, lambda rank: [{word: frame[word] for word in frame} | {"points": frame.points} for frame in vg.open(good(name), ranks=rank)])
-    for frame, *pieces in zip(vg.open(good(name)), *parts):
+    for frame, *pieces in zip(vg.open(good(name)), *parts, strict=True):
         for word in (*frame, "points"):
             together = numpy.concatenate([piece[word] for piece in pieces])
             whole = frame.points if word == "points" else frame[word]
@@ -66,6 +66,35 @@ errors = on_all(3, lambda rank: vg.open("no_such.dump", ranks=rank))
 assert {(type(error), str(error)) for error in errors} == {(FileNotFoundError, str(errors[0]))} and "no_such.dump" in str(errors[0])
 
 
+
+
+def refused(work):
+    try:
+        work()
+    except vg.ArgumentError as error:
+        return str(error)
+    raise AssertionError("expected an error")
+
+
+def stop(rank):
+    run = vg.open(good("grains.dump"), ranks=rank)
+    try:
+        run.read(progress=lambda _: rank.Get_rank() != 1)
+    except vg.Cancelled:
+        return run.refresh().read(columns="id").rows  # the run goes on
+    return None
+
+
+assert sum(on_all(3, stop)) == 1200
+asked_inside = on_all(2, lambda rank: refused(lambda run=vg.open(good("grains.dump"), ranks=rank): run.read(progress=lambda _: run.refresh())))
+assert all("from a function for progress" in text for text in asked_inside), asked_inside
+written = on_all(2, lambda rank: refused(lambda: vg.write("part.dump", vg.open(good("grains.dump"), ranks=rank)[-1])))
+assert all("a part" in text for text in written), written
+assert "cells or subdomains" in refused(lambda: vg.open(good("decomposition_1000.vtk")).read(piece=0, pieces=2))
+assert on_all(3, lambda rank: vg.open(good("decomposition_1000.vtk"), ranks=rank)[0].rows) == [vg.open(good("decomposition_1000.vtk"))[0].rows] * 3
+assert "pieces" in refused(lambda: vg.open(good("grains.dump")).read(pieces=2**32 + 2))
+
+
 class Broken:
     def Get_rank(self):
         return 0
@@ -73,7 +102,11 @@ class Broken:
     def Get_size(self):
         return 2
 
+    calls = 0
+
     def Allgather(self, *_):
+        self.calls += 1
+        assert self.calls == 1  # the ranks are at odds
         raise ConnectionError("the other rank has gone")
 
 

@@ -276,7 +276,8 @@ std::string ColumnSchema::text() const
 
 std::string ColumnSchema::text(const ArrayInfo& array) const
 {
-  if (std::ranges::any_of(array.columns, [](int column) { return column < 0; }))
+  if (array.scale != 1 ||
+    std::ranges::any_of(array.columns, [](int column) { return column < 0; }))
   {
     return {};
   }

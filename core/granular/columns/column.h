@@ -128,7 +128,7 @@ public:
   /// Returns the names, separated by blanks, in the file's order and spelling.
   std::string text() const;
 
-  /// Returns those of an array, one for each component; nothing for an array that no columns make.
+  /// Returns those of an array, one for each component; nothing for an array that other values make.
   std::string text(const ArrayInfo& array) const;
 
   /// Changes the types of columns. An integer column with other numbers becomes Float64 and is no longer open, together with

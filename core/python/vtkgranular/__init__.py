@@ -76,7 +76,7 @@ _LATER = {"fetch": "_fetch", "history": "_history", "label_format": "_versions",
           "write_series": "_series"}
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
-__all__ = ["__version__", "fetch", "files", "history", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
+__all__ = ["__version__", "fetch", "files", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
            "process_ids", "pvbatch", "read_log", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write",
            "write_series"]
 

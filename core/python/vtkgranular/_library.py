@@ -82,6 +82,8 @@ class Ranks(Structure):
 
         def all_gather(mine: int, gathered: int, count: int, _: Any) -> int:
             try:
+                if self.raised:
+                    return 1  # the ranks are at odds
                 communicator.Allgather(*(memoryview((ctypes.c_ubyte * size).from_address(memory)).cast("B")
                                          for memory, size in ((mine, count), (gathered, count * self.size))))
             except BaseException as error:  # noqa: BLE001 (of the communicator: raised behind the library)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import operator
 import os
 import sys
 import threading
@@ -48,6 +49,11 @@ def _fill(struct: c.Structure, options: tuple[Option, ...], given: dict[str, Any
             getattr(struct, option.c)[:] = [float(x) for x in value]
         elif option.type == "region":
             getattr(struct, option.c)[:] = _region(value)
+        elif option.type in ("int", "threads"):
+            number = operator.index(value)
+            if not 0 <= number < 1 << 31:
+                raise c.ArgumentError(f"expected {option.name} from 0 to 2147483647, got {number}")
+            setattr(struct, option.c, number)
         else:
             setattr(struct, option.c, {"flag": bool, "number": float}.get(option.type, int)(value))
 
@@ -287,6 +293,8 @@ class Frame(Mapping[str, Any]):
         return self._arrays[name]
 
     def _raise_no_column(self, name: str) -> NoReturn:
+        if self._is_lines():
+            self._head("rows")  # says why, if the meaning of the columns is not known
         raise c.ColumnError(f"expected a column of {', '.join(self._columns().parts)}, got {name!r}")
 
     def _head(self, name: str) -> Any:
@@ -863,8 +871,9 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     threads         number of threads; 0 (default): one per core
     progress        is called with fractions from 0 to 1 while the frames are looked for; it returns False to stop
     ranks           a communicator of mpi4py: its ranks open and read together. Each gets its part of the rows of a frame, and
-                    cells and subdomains whole. All call the same functions in the same order, ask frames for the same arrays in the
-                    same order, and get the same errors of files and the same remarks. None (default): this process alone
+                    cells and subdomains whole. All call the same functions in the same order, ask frames for the same arrays and facts,
+                    such as frame.rows and frame.box, in the same order, and get the same errors of files and the same remarks. Set
+                    threads where ranks share a machine. None (default): this process alone
 
     The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
     be writing it: `granular check` reports it. Raises FileNotFoundError if there is no such file, vtkgranular.Error

@@ -137,6 +137,9 @@ class Writer:
         library = c.library()
         with self._calls:
             if isinstance(data, Frame):
+                if data._run._ranks and data._run._ranks.size > 1:
+                    raise c.ArgumentError(f"{c.shown(self.path)}: expected arrays, or a frame of a run without ranks, got one of which this "
+                                          "rank has a part: vtkgranular.save writes one file in pvbatch")
                 if not self._pointer:
                     self._create(data, False, "")
                 library.granular_write_frame(self._pointer, data._to_write())
