@@ -28,7 +28,8 @@ TEST(SortRows, one_process)
         const Ids ids = make_ids(arrangement, rows);
         auto [frame, own_ids] = make_frame(ids, 0, rows, threads == 1, threads == 1);
         Notices notices;
-        sort_by_id(frame, own_ids, notices, {}, Executor(threads));
+        granular::SerialCommunicator alone;
+        sort_by_id(frame, own_ids, alone, notices, {}, Executor(threads));
         EXPECT_TRUE(
           bytes_of(frame) == bytes_of(sorted_frame(ids, 0, rows, threads == 1, threads == 1)))
           << arrangement << ' ' << rows;
@@ -48,7 +49,8 @@ TEST(SortRows, parts_of_one_process)
     {
       auto frame = std::move(make_frame(ids, 0, 101).frame);
       Notices notices;
-      sort_by_id(frame, Block(), notices, {});
+      granular::SerialCommunicator alone;
+      sort_by_id(frame, Block(), alone, notices, {});
       const std::int64_t first = begin_of_part(101, part, parts);
       const std::int64_t last = begin_of_part(101, part + 1, parts);
       keep_rows(frame, first, last - first);

@@ -7,10 +7,13 @@
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
@@ -21,6 +24,149 @@ namespace granular
 {
 namespace
 {
+using Row = std::uint64_t;
+
+Row* rows_of(const Block& block) noexcept
+{
+  return static_cast<Row*>(block.data());
+}
+
+/// Sorts by the bits from low to high, and keeps the order of what is equal in these. spare is as large
+/// as rows. Digits of 11 bits keep their counters and the ends of their runs in the nearest caches.
+void sort_by_bits(Block& rows, Block& spare, std::size_t count, int low, int high)
+{
+  constexpr int most_bits = 11;
+  const int passes = (high - low + most_bits - 1) / most_bits;
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    const int shift = low + (high - low) * pass / passes;
+    const int bits = low + (high - low) * (pass + 1) / passes - shift;
+    const Row mask = (Row{ 1 } << bits) - 1;
+    std::array<std::size_t, std::size_t{ 1 } << most_bits> ends = {};
+    const std::span<Row> from(rows_of(rows), count);
+    for (const Row row : from)
+    {
+      ++ends[row >> shift & mask];
+    }
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{ 0 });
+    Row* const to = rows_of(spare);
+    for (const Row row : from)
+    {
+      to[ends[row >> shift & mask]++] = row;
+    }
+    std::swap(rows, spare);
+  }
+}
+
+/// Ids and rows that together fit into 64 bits: ids above rows, as one number.
+Block sort_packed(std::span<const std::int64_t> ids, std::int64_t lowest, int id_bits, int row_bits)
+{
+  Block rows(ids.size() * sizeof(Row));
+  Block spare(ids.size() * sizeof(Row));
+  for (std::size_t row = 0; row < ids.size(); ++row)
+  {
+    const Row id = static_cast<Row>(ids[row]) - static_cast<Row>(lowest);
+    rows_of(rows)[row] = id << row_bits | row;
+  }
+  sort_by_bits(rows, spare, ids.size(), row_bits, row_bits + id_bits);
+  const Row mask = (Row{ 1 } << row_bits) - 1;
+  for (Row& row : std::span(rows_of(rows), ids.size()))
+  {
+    row &= mask;
+  }
+  return rows;
+}
+
+/// Any ids, such as hashes.
+Block sort_wide(std::span<const std::int64_t> ids)
+{
+  struct Place
+  {
+    std::int64_t id;
+    Row row;
+
+    auto operator<=>(
+      const Place&) const = default; // rows differ: the order is that of a stable sort
+  };
+  const auto places = std::make_unique_for_overwrite<Place[]>(ids.size());
+  for (std::size_t row = 0; row < ids.size(); ++row)
+  {
+    places[row] = { ids[row], row };
+  }
+  std::sort(places.get(), places.get() + ids.size());
+  Block rows(ids.size() * sizeof(Row));
+  std::transform(places.get(), places.get() + ids.size(), rows_of(rows),
+    [](const Place& place) { return place.row; });
+  return rows;
+}
+
+/// known: the width where the compiler knows it, which makes a copy one or two moves, not a call; else 0.
+template <std::size_t known>
+void gather_rows(const char* from, std::span<const Row> rows, std::size_t any, char* to)
+{
+  const std::size_t width = known != 0 ? known : any;
+  for (const Row row : rows)
+  {
+    std::memcpy(to, from + row * width, width);
+    to += width;
+  }
+}
+
+using Gather = void (*)(const char*, std::span<const Row>, std::size_t, char*);
+
+Gather gather_of(std::size_t width)
+{
+  constexpr std::pair<std::size_t, Gather> known[] = { { 4, gather_rows<4> }, { 8, gather_rows<8> },
+    { 12, gather_rows<12> }, { 24, gather_rows<24> } };
+  const auto* const found = std::ranges::find(known, width, &std::pair<std::size_t, Gather>::first);
+  return found != std::end(known) ? found->second : gather_rows<0>;
+}
+
+/// An order of rows that can be applied to many blocks.
+class RowOrder
+{
+public:
+  /// Makes the order by id; rows with the same id keep their order. Throws std::bad_alloc.
+  explicit RowOrder(std::span<const std::int64_t> ids)
+  {
+    if (std::is_sorted(ids.begin(), ids.end()))
+    {
+      return;
+    }
+    const auto [lowest, highest] = std::minmax_element(ids.begin(), ids.end());
+    const auto id_bits =
+      static_cast<int>(std::bit_width(static_cast<Row>(*highest) - static_cast<Row>(*lowest)));
+    const auto row_bits = static_cast<int>(std::bit_width(ids.size() - 1));
+    rows_ =
+      id_bits + row_bits <= 64 ? sort_packed(ids, *lowest, id_bits, row_bits) : sort_wide(ids);
+  }
+
+  /// Brings the rows of a block, width bytes each, into this order. Empty blocks are unchanged. Throws std::bad_alloc.
+  void apply(Block& block, std::size_t width, const Executor& executor) const
+  {
+    if (rows_.bytes() == 0 || block.bytes() == 0)
+    {
+      return;
+    }
+    constexpr std::size_t chunk_rows = std::size_t{ 1 } << 15;
+    const std::span<const Row> rows(rows_of(rows_), rows_.bytes() / sizeof(Row));
+    const Gather gather = gather_of(width);
+    Block sorted(block.bytes(), block.pool());
+    const auto* const from = static_cast<const char*>(block.data());
+    auto* const to = static_cast<char*>(sorted.data());
+    Progress quiet; // a moment, next to what was read
+    executor.for_each_stretch(
+      rows.size(), chunk_rows,
+      [&](std::size_t first, std::size_t count, std::size_t)
+      { gather(from, rows.subspan(first, count), width, to + first * width); },
+      quiet);
+    block = std::move(sorted);
+  }
+
+private:
+  Block rows_; ///< Row: from where each row comes; empty: they stay
+};
+
 const std::int64_t* find_ids(const Table& frame, const Block& ids) noexcept
 {
   const auto found = std::ranges::find_if(frame.arrays,
@@ -35,20 +181,17 @@ std::size_t row_width(const TableArray& array) noexcept
   return size_of(array.info.type) * array.info.columns.size();
 }
 
-void note_no_ids(Notices& notices, const Where& where)
+/// Bytes of a point; 0 where there are no rows.
+std::size_t point_width(const Table& frame) noexcept
 {
-  notices.push_back(
-    { where, "expected a column id to sort by, got none; the order is the file's" });
+  return frame.rows > 0 ? frame.points.bytes() / static_cast<std::size_t>(frame.rows) : 0;
 }
 
 /// Calls call(block, width) for all that has a value a row.
 template <class Call>
-void for_each_block(Table& frame, const Call& call)
+void for_each_block(Table& frame, std::size_t width_of_points, const Call& call)
 {
-  if (frame.rows > 0)
-  {
-    call(frame.points, frame.points.bytes() / static_cast<std::size_t>(frame.rows));
-  }
+  call(frame.points, width_of_points);
   for (TableArray& array : frame.arrays)
   {
     call(array.block, row_width(array));
@@ -82,11 +225,9 @@ Survey survey(const Table& frame, bool has_ids, Communicator& ranks)
   {
     throw Error("expected the same arrays on all ranks, got others");
   }
-  const std::size_t width =
-    frame.rows > 0 ? frame.points.bytes() / static_cast<std::size_t>(frame.rows) : 0;
   Survey sum;
   bool lacking = false; // a rank with rows has no ids
-  for (const Survey& own : gather(ranks, Survey{ frame.rows, width, has_ids }))
+  for (const Survey& own : gather(ranks, Survey{ frame.rows, point_width(frame), has_ids }))
   {
     sum.rows += own.rows;
     sum.point_width = std::max(sum.point_width, own.point_width);
@@ -172,11 +313,19 @@ void sort_together(Table& frame, const Block& ids, Communicator& ranks, Notices&
   const Survey all = survey(frame, numbers != nullptr, ranks);
   if (!all.has_ids)
   {
-    note_no_ids(notices, where);
+    notices.push_back(
+      { where, "expected a column id to sort by, got none; the order is the file's" });
     return;
   }
   if (all.rows == 0)
   {
+    return;
+  }
+  const RowOrder leave({ numbers, static_cast<std::size_t>(frame.rows) });
+  if (ranks.size() == 1)
+  {
+    for_each_block(frame, all.point_width,
+      [&](Block& block, std::size_t width) { leave.apply(block, width, executor); });
     return;
   }
   for (TableArray& array : frame.arrays)
@@ -190,7 +339,6 @@ void sort_together(Table& frame, const Block& ids, Communicator& ranks, Notices&
   constexpr std::size_t id_width = sizeof(std::int64_t);
   Block sorted(static_cast<std::size_t>(frame.rows) * id_width);
   std::copy_n(numbers, frame.rows, static_cast<std::int64_t*>(sorted.data()));
-  const RowOrder leave(ids_in(sorted));
   leave.apply(sorted, id_width, executor);
   const std::vector<std::int64_t> out = count_parts(all.rows, ids_in(sorted), ranks);
   const std::vector<std::int64_t> in = swap_numbers(out, ranks);
@@ -211,42 +359,19 @@ void sort_together(Table& frame, const Block& ids, Communicator& ranks, Notices&
     trade_rows(block, width);
     arrive.apply(block, width, executor);
   };
-  move_rows(frame.points, all.point_width);
-  for (TableArray& array : frame.arrays)
-  {
-    move_rows(array.block, row_width(array));
-  }
+  for_each_block(frame, all.point_width, move_rows);
 }
-}
-
-void sort_by_id(
-  Table& frame, const Block& ids, Notices& notices, const Where& where, const Executor& executor)
-{
-  const std::int64_t* const numbers = find_ids(frame, ids);
-  if (!numbers)
-  {
-    note_no_ids(notices, where);
-    return;
-  }
-  const RowOrder order({ numbers, static_cast<std::size_t>(frame.rows) });
-  for_each_block(
-    frame, [&](Block& block, std::size_t width) { order.apply(block, width, executor); });
 }
 
 void sort_by_id(Table& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor)
 {
-  if (ranks.size() == 1)
-  {
-    sort_by_id(frame, ids, notices, where, executor);
-    return;
-  }
   do_together(ranks, [&] { sort_together(frame, ids, ranks, notices, where, executor); });
 }
 
 void keep_rows(Table& frame, std::int64_t first, std::int64_t count)
 {
-  for_each_block(frame,
+  for_each_block(frame, point_width(frame),
     [&](Block& block, std::size_t width)
     {
       if (block.bytes() > 0)

@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace granular
@@ -30,13 +31,24 @@ struct WordHash
 class TextDictionary
 {
 public:
-  /// Stores the index of each text, and adds new ones. Throws LimitError at `where`.
-  void index(std::span<const std::string_view> texts, std::int32_t* indices, const Where& where);
+  /// Returns the index of a word, which is added if it is new. Throws LimitError at `where`.
+  std::int32_t index(std::string_view word, const Where& where)
+  {
+    const auto found = indices_.find(word);
+    if (found != indices_.end())
+    {
+      return found->second;
+    }
+    if (words_.size() == std::numeric_limits<std::int32_t>::max())
+    {
+      throw LimitError("expected at most 2147483647 different words in a column", where);
+    }
+    const auto index = static_cast<std::int32_t>(words_.size());
+    words_.emplace_back(word);
+    indices_.emplace(word, index);
+    return index;
+  }
 
-  /// Returns the index of a word, which is added if it is new.
-  std::int32_t index(std::string_view word, const Where& where);
-
-  const std::vector<std::string>& words() const noexcept { return words_; }
   std::vector<std::string> take() { return std::move(words_); }
 
 private:

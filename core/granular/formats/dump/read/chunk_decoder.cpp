@@ -87,9 +87,10 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
     {
       const TextWire& wire = layout_.texts[i];
       auto* const to = static_cast<std::int32_t*>(layout_.frame.arrays[wire.array].block.data());
-      words[i].index(
-        { reinterpret_cast<const std::string_view*>(wire.texts.at(0, scratch_.get())), count },
-        to + row_, where);
+      const auto* const from =
+        reinterpret_cast<const std::string_view*>(wire.texts.at(0, scratch_.get()));
+      std::transform(from, from + count, to + row_,
+        [&](std::string_view text) { return words[i].index(text, where); });
     }
     const std::size_t kept = this->finish_batch(count, number + chunk.rows, chunk.moved);
     if (request_.ranges)

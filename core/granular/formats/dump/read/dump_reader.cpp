@@ -295,13 +295,8 @@ void sort(DumpPart& part, const Request& request, Communicator& ranks, const Whe
   {
     FrameRanges(part.frame).store(part.frame); // of none: the rows will be others
   }
-  if (ranks.size() > 1)
-  {
-    sort_by_id(part.frame, part.ids, ranks, part.notices, where, executor);
-    return;
-  }
-  sort_by_id(part.frame, part.ids, part.notices, where, executor);
-  if (request.pieces > 1)
+  sort_by_id(part.frame, part.ids, ranks, part.notices, where, executor);
+  if (ranks.size() == 1 && request.pieces > 1)
   {
     const std::int64_t first = begin_of_part(part.frame.rows, request.piece, request.pieces);
     const std::int64_t end = begin_of_part(part.frame.rows, request.piece + 1, request.pieces);
