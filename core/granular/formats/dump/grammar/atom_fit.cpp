@@ -90,6 +90,13 @@ UnnamedColumns name_columns(
   return found;
 }
 
+std::string describe_fit(std::size_t columns, AtomFit fit)
+{
+  return !is_atom(columns) ? ""
+    : fit.scaled ? "; its rows lie in the box both as id type x y z and as id type xs ys zs"
+                 : "; its rows lie in the box neither as id type x y z nor as id type xs ys zs";
+}
+
 AtomFit fit_atom(const ByteSource& source, const BinaryHeader& header, const BinaryLayout& layout)
 {
   constexpr std::int64_t most = 4096;

@@ -43,6 +43,9 @@ UnnamedColumns name_columns(
 /// coordinates count as scaled.
 AtomFit fit_atom(const ByteSource& source, const BinaryHeader& header, const BinaryLayout& layout);
 
+/// Returns "; " and why the columns of dump atom are none.
+std::string describe_fit(std::size_t columns, AtomFit fit);
+
 /// FileFormat::lacks and FileFormat::complete for frames of dump atom without names, whose rows do not tell the coordinates, or
 /// that have none: they are named as the other frames of the run, if these agree.
 bool lack_atom_names(const std::vector<FileIndex>& files);

@@ -5,9 +5,11 @@
 #include "granular/bytes/byte_source.h"
 #include "granular/common/progress.h"
 #include "granular/formats/dump/grammar/binary_header.h"
+#include "granular/formats/dump/grammar/frame_rows.h"
 #include "granular/frames/file_index.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -30,5 +32,8 @@ std::string describe_first_row(
 /// is empty, frames of 5 or 8 columns are taken for dump atom, and the box tells which coordinates they hold: see fit_atom.
 /// Others, and those where it does not tell, cannot be read. A frame that contradicts its header is left out, with all that follow.
 void index_binary_dump(const ByteSource& source, FileIndex& index, Progress& progress);
+
+/// open_rows for a frame of a binary dump.
+std::unique_ptr<FrameRows> open_binary_rows(const ByteSource& source, const FrameEntry& entry);
 }
 #endif

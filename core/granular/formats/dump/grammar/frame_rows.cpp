@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/dump/grammar/frame_rows.h"
 
-#include "granular/formats/dump/grammar/binary_rows.h"
+#include "granular/formats/dump/grammar/binary_dump.h"
 #include "granular/formats/dump/grammar/text_rows.h"
 
 #include <algorithm>
@@ -27,6 +27,6 @@ std::unique_ptr<FrameRows> open_rows(const ByteSource& source, const FrameEntry&
   {
     return std::make_unique<TextRows>(source, entry);
   }
-  return std::make_unique<BinaryRows>(source, entry);
+  return open_binary_rows(source, entry);
 }
 }

@@ -168,8 +168,7 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
   const char* const last = buffer_.data() + end_;
   const RowResult result =
     decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows, memory_);
-  this->check(result, last, sinks);
-  this->check_doubles(buffer_.data() + at_, result.ptr, sinks, result.rows);
+  this->check(buffer_.data() + at_, last, result, sinks);
   at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
   surplus_ = surplus_ || result.surplus;
   return result.rows;
@@ -247,14 +246,13 @@ RowCounts TextReader::decode_chosen(
     passed = row + 1;
     const char* const behind = skip_rows(at, last, passed - first);
     const RowResult some = decode_rows(at, behind, this->columns(), sinks, max_rows, memory_);
-    this->check(some, behind, sinks);
-    this->check_doubles(at, behind, sinks, some.rows);
+    this->check(at, behind, some, sinks);
     counts.decoded += some.rows;
     at = behind;
     ++stretches;
   }
   many_chosen_ = stretches > all.rows / rows_a_stretch;
-  this->check(all, last, std::span(&numbers, 1));
+  this->check(buffer_.data() + at_, last, all, std::span(&numbers, 1));
   at_ = static_cast<std::size_t>(all.ptr - buffer_.data());
   surplus_ = surplus_ || all.surplus;
   return counts;
@@ -265,51 +263,37 @@ std::uint32_t TextReader::columns() const noexcept
   return static_cast<std::uint32_t>(of_.entry_.kind->schema.columns().size());
 }
 
-/// Throws Misfits if decoded rows, whose text is [first, last), hold integers that their columns of doubles do not.
-void TextReader::check_doubles(
-  const char* first, const char* last, std::span<const ColumnSink> sinks, std::int64_t rows) const
+/// Throws what is wrong in rows that were decoded from `first` on, or in the lines up to `last` if not all were, if anything is.
+/// A column that must change is looked at as what it becomes.
+void TextReader::check(const char* first, const char* last, const RowResult& result,
+  std::span<const ColumnSink> sinks) const
 {
-  if (!may_be_long(sinks, rows))
+  const auto misfit = [&](RowStatus status, int column, std::string_view word, std::int64_t line)
+  {
+    return Misfit{ status, column, std::string(word), offset_ + (word.data() - buffer_.data()),
+      line };
+  };
+  if (result.status == RowStatus::TooFew)
+  {
+    const char* const end = std::find(result.ptr, last, '\n');
+    throw Misfits{ misfit(result.status, -1, { result.ptr, end }, 0) };
+  }
+  if (result.status == RowStatus::Done && !may_be_long(sinks, result.rows))
   {
     return;
   }
   Misfits misfits;
-  this->find_misfits(first, last, sinks, misfits);
-  if (!misfits.empty())
-  {
-    const std::int64_t lines = misfits.front().lines;
-    std::ranges::for_each(misfits, [&](Misfit& misfit) { misfit.lines -= lines; });
-    throw misfits;
-  }
-}
-
-/// Adds to the first misfit, if there is one, those behind its word, which ends at `from`. A column that must change is looked at
-/// as what it becomes.
-void TextReader::find_misfits(
-  const char* from, const char* last, std::span<const ColumnSink> sinks, Misfits& misfits) const
-{
+  std::int64_t line = 0; // from the first misfit on
   std::vector<ValueType> types;
   std::ranges::transform(sinks, std::back_inserter(types), &ColumnSink::type);
-  const auto change = [&](std::size_t sink, RowStatus status)
-  { types[sink] = status == RowStatus::NotExact ? ValueType::Float64 : ValueType::Text; };
-  int column = -1; // that of the last word that was taken
-  if (!misfits.empty())
+  const char* const limit = result.status == RowStatus::Done ? result.ptr : last;
+  for (const char* from = first; from < limit; line += misfits.empty() ? 0 : 1)
   {
-    column = misfits.front().column;
-    const auto first = std::ranges::find_if(
-      sinks, [&](const ColumnSink& sink) { return static_cast<int>(sink.column) == column; });
-    change(static_cast<std::size_t>(first - sinks.begin()), misfits.front().status);
-  }
-  for (std::int64_t line = 0; from < last; ++line, column = -1)
-  {
-    const char* const end = std::find(from, last, '\n');
+    const char* const end = std::find(from, limit, '\n');
     std::string_view rest(from, end);
+    int column = -1; // that of the last word that was taken
     for (std::size_t sink = 0; sink < sinks.size(); ++sink)
     {
-      if (column >= static_cast<int>(sinks[sink].column))
-      {
-        continue;
-      }
       std::string_view word;
       for (; column < static_cast<int>(sinks[sink].column); ++column)
       {
@@ -323,33 +307,15 @@ void TextReader::find_misfits(
       const RowStatus status = lost ? RowStatus::NotDouble : check_word(word, types[sink]);
       if (status != RowStatus::Done)
       {
-        misfits.push_back(
-          { status, column, std::string(word), offset_ + (word.data() - buffer_.data()), line });
-        change(sink, status);
+        misfits.push_back(misfit(status, column, word, line));
+        types[sink] = status == RowStatus::NotExact ? ValueType::Float64 : ValueType::Text;
       }
     }
     from = end + 1;
   }
-}
-
-/// Throws what is wrong in the lines up to last, if anything is.
-void TextReader::check(
-  const RowResult& result, const char* last, std::span<const ColumnSink> sinks) const
-{
-  if (result.status == RowStatus::Done)
+  if (!misfits.empty())
   {
-    return;
+    throw misfits;
   }
-  const char* const end = result.status == RowStatus::TooFew
-    ? std::find(result.ptr, last, '\n')
-    : std::find_if(result.ptr, last, is_blank);
-  const bool too_few = result.status == RowStatus::TooFew;
-  Misfits misfits = { { result.status, too_few ? -1 : result.column, std::string(result.ptr, end),
-    offset_ + (result.ptr - buffer_.data()) } };
-  if (!too_few)
-  {
-    this->find_misfits(end, last, sinks, misfits);
-  }
-  throw misfits;
 }
 }

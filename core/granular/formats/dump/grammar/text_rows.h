@@ -65,11 +65,8 @@ private:
   std::size_t load_line(std::size_t at);
   void check_length(std::size_t first, std::size_t end) const;
   std::uint32_t columns() const noexcept;
-  void check_doubles(const char* first, const char* last, std::span<const ColumnSink> sinks,
-    std::int64_t rows) const;
-  void find_misfits(
-    const char* from, const char* last, std::span<const ColumnSink> sinks, Misfits& misfits) const;
-  void check(const RowResult& result, const char* last, std::span<const ColumnSink> sinks) const;
+  void check(const char* first, const char* last, const RowResult& result,
+    std::span<const ColumnSink> sinks) const;
 
   const TextRows& of_;
   PaddedBuffer buffer_;
