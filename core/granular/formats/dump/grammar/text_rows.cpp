@@ -31,7 +31,8 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
     rows_line_ = entry.line;
     return;
   }
-  check_header(source.path(), entry, header_, this->read_header());
+  this->read_header();
+  check_header(source.path(), entry, header_, {});
   header_.units = entry.kind->units;
 }
 
@@ -47,18 +48,16 @@ std::vector<std::string_view> TextRows::first_row(TextScanner& scanner) const
   return words;
 }
 
-/// Returns the names of the columns. Where the first row makes other columns of them than the index says, the header gets -1 rows.
-std::vector<std::string> TextRows::read_header()
+/// Where the header and the first row are not what the index says, the header gets -1 rows.
+void TextRows::read_header()
 {
   constexpr std::size_t window = 4096; // most headers are shorter
   TextScanner scanner(source_, entry_.offset, entry_.line, window);
   TextHeader reader(scanner, "", RowsOf::Any);
+  bool is_header = false;
   try
   {
-    if (!reader.read())
-    {
-      reader.header().rows = -1; // not what the index says
-    }
+    is_header = reader.read();
   }
   catch (const FormatError& error)
   {
@@ -66,18 +65,15 @@ std::vector<std::string> TextRows::read_header()
     {
       throw; // compressed data that are damaged
     }
-    reader.header().rows = -1;
   }
   header_ = std::move(reader.header());
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
-  const bool is_header = header_.rows >= 0;
-  if (is_header &&
+  if (!is_header ||
     !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
   {
     header_.rows = -1;
   }
-  return reader.column_names();
 }
 
 std::vector<int> TextRows::digits() const

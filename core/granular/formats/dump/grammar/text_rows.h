@@ -28,7 +28,7 @@ public:
 private:
   friend class TextReader;
 
-  std::vector<std::string> read_header();
+  void read_header();
   std::vector<std::string_view> first_row(TextScanner& scanner) const;
   bool is_mended(const Misfit& misfit) const;
   Where where(const Misfit& misfit) const;

@@ -29,29 +29,17 @@ std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
 /// The file, as this rank knows it.
 struct DumpWriter::File
 {
-  enum class Way : std::uint8_t
-  {
-    Own,    ///< each rank has its file
-    Gather, ///< the first rank has it
-    Shared  ///< all ranks have it
-  };
-
   File(const std::string& path, const DumpFormat& format, const WriteOptions& options,
     Communicator& all, bool may_share)
     : executor(options.threads)
-    , ranks(all)
+    , ranks(is_name_of_ranks(path) ? alone : all)
   {
-    if (is_name_of_ranks(path))
-    {
-      way = Way::Own;
-    }
-    else if (options.mode == ParallelMode::MpiIo && all.size() > 1 &&
+    if (options.mode == ParallelMode::MpiIo && ranks.size() > 1 &&
       format.compression == Compression::None && may_share)
     {
-      shared = all.open_together(path);
-      way = shared ? Way::Shared : Way::Gather;
+      shared = ranks.open_together(path);
     }
-    if (way == Way::Own || (way == Way::Gather && all.rank() == 0))
+    if (!shared && ranks.rank() == 0)
     {
       own = std::make_unique<NewFile>(name_of_rank(path, all.rank()));
       appender.emplace(*own, format.compression, executor);
@@ -108,8 +96,7 @@ struct DumpWriter::File
         return true;
       }
     };
-    SharedProgress shared_progress(progress, ranks);
-    PartialProgress part(shared_progress);
+    PartialProgress part(progress);
     const double share = 1.0 / ranks.size();
     if (ranks.rank() == 0)
     {
@@ -156,8 +143,7 @@ struct DumpWriter::File
   void share_rows(std::string_view header, RowBatches& rows, const ChunkLengths& chunks,
     std::span<const std::int64_t> kept_rows, Progress& progress)
   {
-    SharedProgress shared_progress(progress, ranks);
-    PartialProgress part(shared_progress);
+    PartialProgress part(progress);
     const auto rank = static_cast<std::size_t>(ranks.rank());
     std::int64_t before = 0;
     std::int64_t all = 0;
@@ -218,14 +204,15 @@ struct DumpWriter::File
   }
 
   Executor executor;
-  Communicator& ranks;
-  Way way = Way::Gather;
-  std::unique_ptr<NewFile> own;
+  SerialCommunicator alone;
+  Communicator& ranks;                  ///< those that write this file
+  std::unique_ptr<NewFile> own;         ///< of the first of them
   std::optional<FileAppender> appender; ///< to own
-  std::unique_ptr<OutputFile> shared;
+  std::unique_ptr<OutputFile> shared;   ///< of all of them
   std::int64_t shared_size = 0;
   bool first = true; ///< no frame is written yet
 };
+
 DumpWriter::DumpWriter(
   std::string path, DumpFormat format, const WriteOptions& options, Communicator& ranks)
   : path_(std::move(path))
@@ -299,7 +286,7 @@ void DumpWriter::write_rows(
   const FrameView& view = sorted ? sorted->view() : frame;
   const auto rank = static_cast<std::size_t>(ranks_.rank());
   const std::int64_t before = sum_of(std::span(plan.kept_rows).first(rank));
-  const bool own = file_->way == File::Way::Own;
+  const bool own = is_name_of_ranks(path_);
   const std::vector<std::string> names = plan.columns.names();
   plan.header.rows = own ? plan.kept_rows[rank] : plan.header.rows;
   const ChunkLengths chunks = format_.binary
@@ -313,21 +300,14 @@ void DumpWriter::write_rows(
   RowBatches rows(encoded, file_->executor);
 
   agree(ranks_, nullptr); // or the first rank would wait for the rows of one that has failed
-  switch (file_->way)
+  SharedProgress shared(part, ranks_);
+  if (file_->shared)
   {
-    case File::Way::Own:
-    {
-      SharedProgress shared(part, ranks_);
-      file_->append_rows(header, rows, shared);
-      file_->appender->end_part();
-      break;
-    }
-    case File::Way::Gather:
-      file_->gather_rows(header, rows, part);
-      break;
-    case File::Way::Shared:
-      file_->share_rows(header, rows, chunks, plan.kept_rows, part);
-      break;
+    file_->share_rows(header, rows, chunks, plan.kept_rows, shared);
+  }
+  else
+  {
+    file_->gather_rows(header, rows, shared);
   }
   file_->first = false;
   RoundingLoss loss = add_ranks(rows.loss(), ranks_);
@@ -345,7 +325,7 @@ void DumpWriter::finish()
 void DumpWriter::close()
 {
   const bool durable = is_durable(options_.durable, path_);
-  if (file_ && file_->way == File::Way::Shared)
+  if (file_ && file_->shared)
   {
     file_->shared->finish(durable);
   }
