@@ -7,9 +7,9 @@
 #include "granular/frames/run_index.h"
 #include "granular/frames/update_files.h"
 #include "granular/parallel/executor.h"
-#include "granular/parallel/trade.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -41,34 +41,20 @@ std::vector<FileIndex> look_together(const std::vector<std::string>& names,
   constexpr std::size_t most_seek_bytes = std::size_t{ 1 } << 28; // of all ranks
   update_files(files, options.column_names, options.threads, progress,
     most_seek_bytes / std::min(size, names.size()));
+  const std::size_t own = files.size();
   std::string sent;
   if (rank > 0)
   {
     std::erase_if(files, [](const FileIndex& file) { return !may_be_sent(file); });
     sent = encode_files(files);
   }
-  std::vector<std::int64_t> counts(size);
-  counts[0] = static_cast<std::int64_t>(sent.size());
-  const std::vector<std::int64_t> come = swap_numbers(counts, ranks);
-  const std::vector<char> parts = trade(sent, counts, come, ranks);
-  std::string_view rest(parts.data(), parts.size());
-  const std::size_t own = files.size();
-  for (const std::int64_t bytes : come)
-  {
-    const auto length = static_cast<std::size_t>(bytes);
-    std::vector<FileIndex> of_rank;
-    if (length > 0)
-    {
-      of_rank = decode_files(rest.substr(0, length), kinds);
-    }
-    for (FileIndex& file : of_rank)
-    {
-      files.push_back(std::move(file));
-    }
-    rest.remove_prefix(length);
-  }
+  const std::vector<std::string> came = ranks.all_gather(sent);
   if (rank == 0)
   {
+    for (std::size_t other = 1; other < size; ++other)
+    {
+      std::ranges::move(decode_files(came[other], kinds), std::back_inserter(files));
+    }
     Executor(options.threads)
       .parallel_for(
         files.size() - own, [&](std::size_t file, std::size_t) { adopt(files[own + file]); },

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
@@ -58,46 +57,30 @@ void sort_by_bits(Block& rows, Block& spare, std::size_t count, int low, int hig
   }
 }
 
-/// Ids and rows that together fit into 64 bits: ids above rows, as one number.
-Block sort_packed(std::span<const std::int64_t> ids, std::int64_t lowest, int id_bits, int row_bits)
+/// Returns the rows in the order of their ids, which stand above the rows in numbers of 64 bits, as many bits of them at a time
+/// as there is room for. The ids of most frames fit at once.
+Block sort_rows_by(
+  std::span<const std::int64_t> ids, std::int64_t lowest, int id_bits, int row_bits)
 {
-  Block rows(ids.size() * sizeof(Row));
+  Block sorted(ids.size() * sizeof(Row));
   Block spare(ids.size() * sizeof(Row));
-  for (std::size_t row = 0; row < ids.size(); ++row)
-  {
-    const Row id = static_cast<Row>(ids[row]) - static_cast<Row>(lowest);
-    rows_of(rows)[row] = id << row_bits | row;
-  }
-  sort_by_bits(rows, spare, ids.size(), row_bits, row_bits + id_bits);
   const Row mask = (Row{ 1 } << row_bits) - 1;
-  for (Row& row : std::span(rows_of(rows), ids.size()))
+  const int room = 64 - row_bits;
+  for (int low = 0; low < id_bits; low += room)
   {
-    row &= mask;
+    Row* const rows = rows_of(sorted);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      const Row row = low == 0 ? i : rows[i];
+      rows[i] = (static_cast<Row>(ids[row]) - static_cast<Row>(lowest)) >> low << row_bits | row;
+    }
+    sort_by_bits(sorted, spare, ids.size(), row_bits, row_bits + std::min(room, id_bits - low));
+    for (Row& row : std::span(rows_of(sorted), ids.size()))
+    {
+      row &= mask;
+    }
   }
-  return rows;
-}
-
-/// Any ids, such as hashes.
-Block sort_wide(std::span<const std::int64_t> ids)
-{
-  struct Place
-  {
-    std::int64_t id;
-    Row row;
-
-    auto operator<=>(
-      const Place&) const = default; // rows differ: the order is that of a stable sort
-  };
-  const auto places = std::make_unique_for_overwrite<Place[]>(ids.size());
-  for (std::size_t row = 0; row < ids.size(); ++row)
-  {
-    places[row] = { ids[row], row };
-  }
-  std::sort(places.get(), places.get() + ids.size());
-  Block rows(ids.size() * sizeof(Row));
-  std::transform(places.get(), places.get() + ids.size(), rows_of(rows),
-    [](const Place& place) { return place.row; });
-  return rows;
+  return sorted;
 }
 
 /// known: the width where the compiler knows it, which makes a copy one or two moves, not a call; else 0.
@@ -137,8 +120,7 @@ public:
     const auto id_bits =
       static_cast<int>(std::bit_width(static_cast<Row>(*highest) - static_cast<Row>(*lowest)));
     const auto row_bits = static_cast<int>(std::bit_width(ids.size() - 1));
-    rows_ =
-      id_bits + row_bits <= 64 ? sort_packed(ids, *lowest, id_bits, row_bits) : sort_wide(ids);
+    rows_ = sort_rows_by(ids, *lowest, id_bits, row_bits);
   }
 
   /// Brings the rows of a block, width bytes each, into this order. Empty blocks are unchanged. Throws std::bad_alloc.

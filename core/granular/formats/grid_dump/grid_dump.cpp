@@ -93,8 +93,8 @@ const FileFormat& grid_format() noexcept
 
 bool is_grid_file(const std::string& path) noexcept
 {
-  return looks_so(
-    path, [](const ByteSource& source) { return is_text_of_cells(first_bytes_of(source)); });
+  return looks_so(path,
+    [](const ByteSource& source) { return tell_rows(first_bytes_of(source)) == RowsOf::Cells; });
 }
 
 EulerFrame read_grid(const std::vector<FramePiece>& pieces,

@@ -290,7 +290,7 @@ const FileFormat& local_format() noexcept
 
 bool is_local(std::string_view first_bytes)
 {
-  return is_text_of_others(first_bytes);
+  return tell_rows(first_bytes) == RowsOf::Others;
 }
 
 bool is_local_file(const std::string& path) noexcept

@@ -18,41 +18,6 @@ namespace
 constexpr std::string_view scaled_atom = "id type xs ys zs ix iy iz";
 constexpr std::string_view absolute_atom = "id type x y z ix iy iz";
 
-/// The box in doubles, which makes scaled coordinates of absolute ones.
-class Cell
-{
-public:
-  explicit Cell(const Box& box)
-    : origin_(values_of(box.origin))
-  {
-    std::array<Vector3, 3> edges;
-    std::ranges::transform(box.vectors, edges.begin(), values_of);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      faces_[axis] = cross(edges[(axis + 1) % 3], edges[(axis + 2) % 3]);
-    }
-    volume_ = dot(edges[0], faces_[0]);
-    is_unit_ = origin_ == Vector3{} &&
-      edges == std::array<Vector3, 3>{ Vector3{ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
-  }
-
-  bool is_unit() const noexcept { return is_unit_; }
-  bool has_volume() const noexcept { return volume_ != 0; }
-
-  Vector3 scaled(const Vector3& point) const noexcept
-  {
-    const Vector3 place = { point[0] - origin_[0], point[1] - origin_[1], point[2] - origin_[2] };
-    return { dot(place, faces_[0]) / volume_, dot(place, faces_[1]) / volume_,
-      dot(place, faces_[2]) / volume_ };
-  }
-
-private:
-  Vector3 origin_;
-  std::array<Vector3, 3> faces_;
-  double volume_;
-  bool is_unit_;
-};
-
 bool is_inside(const Vector3& scaled) noexcept
 {
   constexpr double margin = 0.02;
@@ -102,9 +67,16 @@ AtomFit fit_atom(const ByteSource& source, const BinaryHeader& header, const Bin
   constexpr std::int64_t most = 4096;
   constexpr std::int64_t some = 64;  // enough where one kind of coordinates fits
   constexpr std::int64_t strays = 5; // one row in so many may be anywhere
-  const Cell cell(header.frame.box);
+  const Vector3 origin = values_of(header.frame.box.origin);
+  std::array<Vector3, 3> edges;
+  std::ranges::transform(header.frame.box.vectors, edges.begin(), values_of);
+  const auto& [a, b, c] = edges;
+  const std::array<Vector3, 3> faces = { cross(b, c), cross(c, a), cross(a, b) };
+  const double volume = dot(a, faces[0]);
+  const bool is_unit = origin == Vector3{} && a == Vector3{ 1, 0, 0 } && b == Vector3{ 0, 1, 0 } &&
+    c == Vector3{ 0, 0, 1 };
   const auto columns = static_cast<std::size_t>(header.size_one);
-  if (!is_atom(columns) || cell.is_unit() || header.frame.rows == 0)
+  if (!is_atom(columns) || is_unit || header.frame.rows == 0)
   {
     return { .scaled = true };
   }
@@ -124,9 +96,12 @@ AtomFit fit_atom(const ByteSource& source, const BinaryHeader& header, const Bin
     }
     std::vector<double> values(columns);
     std::ranges::generate(values, [&] { return cursor.take<double>(); });
-    const Vector3 place = { values[2], values[3], values[4] };
-    scaled += cell.has_volume() && is_inside(place) ? 1 : 0;
-    absolute += is_inside(cell.scaled(place)) ? 1 : 0;
+    scaled += volume != 0 && is_inside({ values[2], values[3], values[4] }) ? 1 : 0;
+    const Vector3 place = { values[2] - origin[0], values[3] - origin[1], values[4] - origin[2] };
+    absolute += is_inside({ dot(place, faces[0]) / volume, dot(place, faces[1]) / volume,
+                  dot(place, faces[2]) / volume })
+      ? 1
+      : 0;
     const auto fits = [row](std::int64_t inside) { return strays * (row - inside) <= row; };
     fit = { fits(scaled), fits(absolute) };
     if (row >= some && fit.scaled != fit.absolute)

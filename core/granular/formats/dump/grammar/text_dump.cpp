@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 #include <utility>
 
 namespace granular
@@ -294,10 +293,7 @@ private:
 
 }
 
-namespace
-{
-/// Returns the kind of rows that the first bytes of a text dump tell; Any: they do not tell it. Nothing for other files.
-std::optional<RowsOf> find_rows(std::string_view first_bytes)
+std::optional<RowsOf> tell_rows(std::string_view first_bytes)
 {
   constexpr int longest_header = 64; // lines
   bool opened = false;
@@ -330,22 +326,11 @@ std::optional<RowsOf> find_rows(std::string_view first_bytes)
   }
   return opened ? std::optional(RowsOf::Any) : std::nullopt;
 }
-}
 
 bool is_text_dump(std::string_view first_bytes)
 {
-  const std::optional<RowsOf> rows = find_rows(first_bytes);
+  const std::optional<RowsOf> rows = tell_rows(first_bytes);
   return rows == RowsOf::Particles || rows == RowsOf::Any;
-}
-
-bool is_text_of_others(std::string_view first_bytes)
-{
-  return find_rows(first_bytes) == RowsOf::Others;
-}
-
-bool is_text_of_cells(std::string_view first_bytes)
-{
-  return find_rows(first_bytes) == RowsOf::Cells;
 }
 
 bool makes_columns(const std::vector<std::string>& names,

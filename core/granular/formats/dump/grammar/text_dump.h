@@ -8,23 +8,19 @@
 #include "granular/frames/file_index.h"
 #include "granular/text/text_scanner.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace granular
 {
-/// Returns true if a file begins like a text dump of particles: after an optional byte order mark and blank lines,
-/// ITEM: TIMESTEP, UNITS or TIME, and, if the bytes reach so far, ITEM: NUMBER OF ATOMS. Files of dump local count
-/// ENTRIES or a word chosen by the user instead.
+/// Returns the kind of rows of a text dump, as its first bytes tell it; Any if they do not reach that far. Returns nothing for
+/// other files: a dump begins, after an optional byte order mark and blank lines, with ITEM: TIMESTEP, UNITS or TIME.
+std::optional<RowsOf> tell_rows(std::string_view first_bytes);
+
+/// Returns true if a file begins like a text dump of particles, or like one whose rows the bytes do not tell.
 bool is_text_dump(std::string_view first_bytes);
-
-/// Returns true if a file begins like a text of dump local: as is_text_dump, but the bytes must reach a count of
-/// something other than atoms.
-bool is_text_of_others(std::string_view first_bytes);
-
-/// Returns true if a file begins like a text of dump grid: the bytes must reach ITEM: GRID SIZE.
-bool is_text_of_cells(std::string_view first_bytes);
 
 /// Returns true if the names in a header and the words of the first row make these columns. first_row is empty if there
 /// are no rows.

@@ -45,15 +45,23 @@ std::shared_ptr<const FrameDecoder::Source> FrameDecoder::open(std::size_t piece
   return source;
 }
 
-void FrameDecoder::go_to(Worker& worker, std::size_t piece)
+/// Opens a chunk in its turn to be read: those of a compressed file one after the other.
+void FrameDecoder::open_chunk(const PieceRows& range, Worker& worker, Turn& read)
 {
-  if (!worker.source || worker.piece != piece)
+  if (!worker.source || worker.piece != range.piece)
   {
     worker.reader.reset();
-    worker.source = this->open(piece);
+    worker.source = this->open(range.piece);
     worker.reader = worker.source->rows->reader();
-    worker.piece = piece;
+    worker.piece = range.piece;
   }
+  read.wait();
+  if (worker.source->bytes->concurrent())
+  {
+    read.pass();
+  }
+  worker.reader->open(range.first, range.last);
+  read.pass();
 }
 
 /// Rows of the frame before this part: where they are chosen by their numbers.
@@ -74,25 +82,18 @@ std::int64_t FrameDecoder::rows_before(Progress& progress)
     return before + range.first;
   }
   const ChunkCuts chunks(pieces_, { { range.piece, 0, range.first } }, request_.chunk_bytes);
-  const std::shared_ptr<const Source> source = this->open(range.piece);
-  std::vector<std::unique_ptr<RowReader>> readers(executor_.workers(chunks.size()));
+  std::vector<Worker> workers(executor_.workers(chunks.size()));
   std::atomic<std::int64_t> rows = before;
   Turns reads;
-  const auto count = [&](std::size_t chunk, std::size_t worker)
-  {
-    Turn read(reads, chunk);
-    readers[worker] = readers[worker] ? std::move(readers[worker]) : source->rows->reader();
-    read.wait();
-    if (source->bytes->concurrent())
+  executor_.parallel_for(
+    chunks.size(),
+    [&](std::size_t chunk, std::size_t worker)
     {
-      read.pass();
-    }
-    const PieceRows part = chunks[chunk];
-    readers[worker]->open(part.first, part.last);
-    read.pass();
-    rows += readers[worker]->rows();
-  };
-  executor_.parallel_for(chunks.size(), count, progress);
+      Turn read(reads, chunk);
+      this->open_chunk(chunks[chunk], workers[worker], read);
+      rows += workers[worker].reader->rows();
+    },
+    progress);
   return rows;
 }
 
@@ -201,14 +202,7 @@ void FrameDecoder::decode_chunk(std::size_t chunk, Worker& worker)
   Turn read(reads_, chunk);
   DecodedChunk& decoded = this->result_of(chunk);
   const PieceRows range = chunks_[chunk];
-  this->go_to(worker, range.piece);
-  read.wait();
-  if (worker.source->bytes->concurrent())
-  {
-    read.pass();
-  }
-  worker.reader->open(range.first, range.last);
-  read.pass();
+  this->open_chunk(range, worker, read);
   if (!alone_)
   {
     const std::int64_t rows = worker.reader->rows();

@@ -97,7 +97,7 @@ private:
   };
 
   std::shared_ptr<const Source> open(std::size_t piece);
-  void go_to(Worker& worker, std::size_t piece);
+  void open_chunk(const PieceRows& range, Worker& worker, Turn& read);
   std::int64_t rows_before(Progress& progress);
   bool decode(std::int64_t room, Progress& progress);
   void decode_chunk(std::size_t chunk, Worker& worker);
