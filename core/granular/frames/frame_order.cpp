@@ -2,7 +2,6 @@
 #include "granular/frames/frame_order.h"
 
 #include "granular/common/error.h"
-#include "granular/common/pass.h"
 
 #include <algorithm>
 #include <limits>
@@ -288,27 +287,5 @@ FrameOrder order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices)
 {
   return Collector(files, repeated, notices).run();
-}
-
-void write_order(ArchiveWriter& out, const FrameOrder& order)
-{
-  pass(out, order.places);
-  pass(out, order.starts);
-}
-
-FrameOrder read_order(ArchiveReader& in, const std::vector<FileIndex>& files)
-{
-  FrameOrder order;
-  pass(in, order.places);
-  pass(in, order.starts);
-  const auto is_there = [&](const Place& place)
-  { return place.file < files.size() && place.frame < files[place.file].frames.size(); };
-  require(std::ranges::all_of(order.places, is_there), "a frame that is there");
-  const auto& starts = order.starts;
-  const auto not_before = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
-  require(!starts.empty() && starts.front() == 0 && starts.back() == order.places.size() &&
-      std::ranges::adjacent_find(starts, not_before) == starts.end(),
-    "a piece for each frame");
-  return order;
 }
 }

@@ -2,15 +2,16 @@
 #ifndef granular_frames_frame_order_h
 #define granular_frames_frame_order_h
 
-#include "granular/common/archive.h"
 #include "granular/common/error.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/run_index.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace granular
@@ -52,8 +53,11 @@ struct FrameOrder
 FrameOrder order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
 
-/// Writes the order to bytes, and reads it back; files must be the same files as before. Throws FormatError.
-void write_order(ArchiveWriter& out, const FrameOrder& order);
-FrameOrder read_order(ArchiveReader& in, const std::vector<FileIndex>& files);
+/// Returns the indexes of files as bytes, for other ranks; without errors, layouts and what the user was told.
+std::string encode_files(const std::vector<FileIndex>& files);
+
+/// Returns the indexes in the bytes of encode_files, with these kinds. Throws FormatError.
+std::vector<FileIndex> decode_files(
+  std::string_view bytes, const std::shared_ptr<FrameKinds>& kinds);
 }
 #endif

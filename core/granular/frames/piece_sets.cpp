@@ -88,6 +88,15 @@ std::vector<GroupFrame> list_frames(const std::vector<FileIndex>& files, const S
   return last;
 }
 
+/// Returns the end of the frames of one timestep and group.
+template <class Place>
+Place end_of_step(Place first, Place last)
+{
+  return std::find_if(first, last,
+    [&](const GroupFrame& frame)
+    { return frame.timestep() != first->timestep() || frame.group != first->group; });
+}
+
 /// Returns true if files begin a run together: only one of them has frames so far, and all are there.
 bool just_begun(const std::vector<FileIndex>& files, const Siblings& groups)
 {
@@ -133,9 +142,7 @@ bool share_frames(const std::vector<FileIndex>& files, const Siblings& groups,
   { return std::next(groups.begin(), static_cast<std::ptrdiff_t>(group))->second.size(); };
   for (auto first = frames.begin(); first != frames.end();)
   {
-    const auto end = std::find_if(first, frames.end(),
-      [&](const GroupFrame& frame)
-      { return frame.timestep() != first->timestep() || frame.group != first->group; });
+    const auto end = end_of_step(first, frames.end());
     const bool same = end - first > 1 && first->entry->shape != FrameEntry::whole &&
       std::all_of(first, end,
         [&](const GroupFrame& frame) { return frame.entry->shape == first->entry->shape; });
@@ -185,31 +192,26 @@ bool is_seen(const FileIndex& file, const FrameEntry& entry, std::set<std::int64
 /// was done again, under the same name with another number, looks like pieces but for that.
 bool share_particles(const std::vector<FileIndex>& files, const std::vector<GroupFrame>& frames)
 {
-  constexpr std::size_t most_files = 4;
-  std::set<std::int64_t> seen;
-  const GroupFrame* first = nullptr;
-  std::size_t looked = 0;
-  for (const GroupFrame& frame : frames)
+  constexpr int most_files = 4;
+  for (auto first = frames.begin(); first != frames.end();)
   {
-    const bool same = first && frame.timestep() == first->timestep() && frame.group == first->group;
-    if (frame.entry->rows == 0 || (same && looked == most_files))
+    const auto end = end_of_step(first, frames.end());
+    std::set<std::int64_t> seen;
+    int looked = 0;
+    for (; first != end; ++first)
     {
-      continue;
+      if (first->entry->rows > 0 && looked < most_files)
+      {
+        if (is_seen(files[first->file], *first->entry, seen))
+        {
+          return true;
+        }
+        ++looked;
+      }
     }
-    if (first && !same && looked > 1)
+    if (looked > 1)
     {
       return false;
-    }
-    if (!same)
-    {
-      seen.clear();
-      looked = 0;
-      first = &frame;
-    }
-    ++looked;
-    if (is_seen(files[frame.file], *frame.entry, seen))
-    {
-      return true;
     }
   }
   return false;

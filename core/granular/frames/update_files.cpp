@@ -6,56 +6,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <iterator>
-#include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace granular
 {
 namespace
 {
-/// Sees to it that the seek points of all files take no more than there is for them, also while
-/// they are found. In whatever order files are done, it keeps those of the first ones.
-class RestartBudget
-{
-public:
-  RestartBudget(std::vector<FileIndex>& files, std::size_t most)
-    : files_(files)
-    , most_(most)
-    , end_(files.size())
-  {
-  }
-
-  /// A file is done with.
-  void take(std::size_t file)
-  {
-    if (!files_[file].points)
-    {
-      return;
-    }
-    const std::lock_guard lock(mutex_);
-    kept_[file] = files_[file].points->bytes();
-    bytes_ += kept_[file];
-    while (!kept_.empty() && (bytes_ > most_ || std::prev(kept_.end())->first >= end_))
-    {
-      const auto last = std::prev(kept_.end());
-      end_ = std::min(end_, last->first);
-      bytes_ -= last->second;
-      files_[last->first].points.reset();
-      kept_.erase(last);
-    }
-  }
-
-private:
-  std::vector<FileIndex>& files_;
-  std::size_t most_;
-  std::mutex mutex_;
-  std::map<std::size_t, std::size_t> kept_; ///< bytes by file
-  std::size_t bytes_ = 0;                   ///< of them
-  std::size_t end_;                         ///< from this file on none are kept
-};
-
 /// Progress of all files together. The caller's thread reports that; the others only hear of it that they
 /// should stop.
 class FilesProgress final : public Progress
@@ -95,12 +53,33 @@ void update_files(std::vector<FileIndex>& files, const std::vector<std::string>&
   const Executor executor(threads);
   ScanAhead ahead;
   ahead.threads = executor.threads() / static_cast<int>(executor.workers(files.size()));
-  RestartBudget budget(files, most_seek_bytes);
   FilesProgress all(progress, files.size());
+  std::mutex mutex;
+  std::set<std::size_t> kept;          // files with seek points
+  std::size_t bytes = 0;               // of these points
+  std::size_t end_kept = files.size(); // from this file on none are kept
+  // in whatever order files are done, the points of the first ones stay, and there is never more than one file too many
+  const auto keep_points = [&](std::size_t file)
+  {
+    const std::lock_guard lock(mutex);
+    if (files[file].points)
+    {
+      kept.insert(file);
+      bytes += files[file].points->bytes();
+    }
+    while (!kept.empty() && (bytes > most_seek_bytes || *kept.rbegin() >= end_kept))
+    {
+      const std::size_t last = *kept.rbegin();
+      end_kept = std::min(end_kept, last);
+      bytes -= files[last].points->bytes();
+      files[last].points.reset();
+      kept.erase(last);
+    }
+  };
   const auto update = [&](std::size_t file, std::size_t)
   {
     update_file_index(files[file], column_names, all, ahead);
-    budget.take(file);
+    keep_points(file);
     all.finish_file();
   };
   executor.parallel_for(files.size(), update, all);

@@ -69,14 +69,15 @@ struct Fit
   };
 
   Grade grade = Impossible;
-  int faults = 0; ///< of the header
+  bool has_header = false; ///< a whole one
+  int faults = 0;          ///< of the header
   std::optional<FormatError> error;
 };
 
 Fit try_layout(const ByteSource& source, const BinaryLayout& layout, Progress& progress)
 {
   const HeaderCheck check = check_binary_header(source, layout);
-  Fit fit = { Fit::Impossible, check.faults, check.error };
+  Fit fit = { Fit::Impossible, check.header.has_value(), check.faults, check.error };
   if (check.error && !check.header)
   {
     return fit;
@@ -300,21 +301,11 @@ bool is_binary_dump(std::string_view first_bytes)
   return std::ranges::any_of(binary_layouts(),
     [&](const BinaryLayout& layout)
     {
-      try
-      {
-        const HeaderCheck check = check_binary_header(*source, layout);
-        if (check.header && !check.error)
-        {
-          find_end(*source, *check.header, layout.swapped, progress);
-        }
-        // a header with texts may be long, but the magic word is enough
-        constexpr std::size_t word = 24;
-        return !check.error && (check.header || (layout.magic && first_bytes.size() >= word));
-      }
-      catch (const Error&)
-      {
-        return false;
-      }
+      const Fit fit = try_layout(*source, layout, progress);
+      // a header with texts may be long, but the magic word is enough
+      constexpr std::size_t word = 24;
+      return fit.grade != Fit::Impossible && fit.faults == 0 &&
+        (fit.has_header || (layout.magic && first_bytes.size() >= word));
     });
 }
 

@@ -72,7 +72,6 @@ public:
 
   std::string take_text(std::int64_t bytes);
   void go_to(std::int64_t offset) noexcept { offset_ = offset; }
-  void set_swapped(bool swapped) noexcept { swapped_ = swapped; }
 
   std::int64_t offset() const noexcept { return offset_; }
   bool ended() const noexcept { return ended_; } ///< true: bytes after the end were requested
@@ -85,7 +84,7 @@ private:
   std::int64_t buffer_offset_ = 0;
   std::size_t buffered_ = 0;
   std::int64_t offset_;
-  bool swapped_;
+  const bool swapped_;
   bool ended_ = false;
 };
 

@@ -228,10 +228,6 @@ DumpPart decode(
 /// Puts together what all ranks have to say, on all: the first misfits, and each notice once.
 void share_remarks(Communicator& ranks, DumpPart& part)
 {
-  if (ranks.size() == 1)
-  {
-    return;
-  }
   const Remarks own{ std::exchange(part.misfits, {}), std::exchange(part.notices, {}), part.loss };
   std::set<std::string> said;
   for (const Remarks& remarks : gather(ranks, own))

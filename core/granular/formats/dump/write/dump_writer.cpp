@@ -4,7 +4,6 @@
 #include "granular/common/error.h"
 #include "granular/formats/dump/write/frame_plan.h"
 #include "granular/formats/dump/write/row_batches.h"
-#include "granular/formats/dump/write/sorted_rows.h"
 
 #include <algorithm>
 #include <new>

@@ -5,10 +5,13 @@
 #include "granular/formats/dump/write/column_plan.h"
 #include "granular/formats/dump/write/dump_format.h"
 #include "granular/parallel/communicator.h"
+#include "granular/parallel/executor.h"
 #include "granular/particles/frame_view.h"
+#include "granular/particles/table.h"
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace granular
@@ -28,5 +31,26 @@ struct FramePlan
 /// coordinates, units, a time. Notices are on all ranks. Collective.
 FramePlan plan_frame(
   const FrameView& frame, const DumpFormat& format, Communicator& ranks, Notices& notices);
+
+/// The columns of a frame to be written, copied and sorted by id.
+class SortedRows
+{
+public:
+  /// Copies the rows of the view, without duplicates, in the columns of the plan, and gives each rank its part of all sorted
+  /// rows: see sort_by_id. The plan then belongs to view(). The frame must have ids. Collective.
+  SortedRows(const FrameView& frame, FramePlan& plan, Communicator& ranks, const Executor& executor,
+    Progress& progress);
+
+  const FrameView& view() const noexcept { return view_; }
+
+private:
+  void copy(const FrameView& frame, const FramePlan& plan, int rank, Progress& progress);
+  void show(FramePlan& plan);
+
+  Table rows_;
+  Block ids_;
+  std::vector<std::vector<std::string>> texts_; ///< of each column of texts
+  FrameView view_;
+};
 }
 #endif

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 namespace granular
 {
@@ -104,23 +105,13 @@ void put_back_digits(double& value, int digits, double allowed) noexcept
 }
 }
 
-/// Room for the integers of a column that are made.
-std::span<std::int64_t> RowValues::make_integers(std::size_t column)
+/// Room for the numbers of a column that are made.
+template <class Number>
+std::span<Number> RowValues::make(std::vector<std::vector<Number>>& all, std::size_t column)
 {
-  std::vector<std::int64_t>& made = integers_[column];
+  std::vector<Number>& made = all[column];
   made.resize(rows_);
-  columns_[column].type = ValueType::Int64;
-  columns_[column].data = made.data();
-  columns_[column].step = 1;
-  return made;
-}
-
-/// Room for the real numbers of a column that are made.
-std::span<double> RowValues::make_reals(std::size_t column)
-{
-  std::vector<double>& made = reals_[column];
-  made.resize(rows_);
-  columns_[column].type = ValueType::Float64;
+  columns_[column].type = std::is_same_v<Number, double> ? ValueType::Float64 : ValueType::Int64;
   columns_[column].data = made.data();
   columns_[column].step = 1;
   return made;
@@ -166,11 +157,11 @@ void RowValues::load_array(const ColumnSource& source, std::size_t column, bool 
     {
       check_unsigned(source, this->kept());
     }
-    load_numbers(values, this->kept(), this->make_integers(column).data());
+    load_numbers(values, this->kept(), this->make(integers_, column).data());
   }
   else
   {
-    const std::span<double> reals = this->make_reals(column);
+    const std::span<double> reals = this->make(reals_, column);
     load_numbers(values, this->kept(), reals.data());
     for (double& value : reals)
     {
@@ -297,16 +288,16 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
         if (scales_alone(source, frame, box))
         {
           const auto axis = static_cast<std::size_t>(source.axis);
-          const std::span<double> reals = this->make_reals(i);
+          const std::span<double> reals = this->make(reals_, i);
           load_numbers(point_values(frame, axis), this->kept(), reals.data());
           scale_aligned(box_, axis, reals);
           break;
         }
-        this->load_coordinate(frame, box, source, this->make_reals(i));
+        this->load_coordinate(frame, box, source, this->make(reals_, i));
         break;
       case Kind::Image:
       {
-        const std::span<std::int64_t> counts = this->make_integers(i);
+        const std::span<std::int64_t> counts = this->make(integers_, i);
         for (std::size_t row = 0; row < rows_; ++row)
         {
           counts[row] =
@@ -316,12 +307,12 @@ void RowValues::load(const FrameView& frame, const ColumnPlan& plan, const Box& 
       }
       case Kind::RowNumber:
       {
-        const std::span<std::int64_t> numbers = this->make_integers(i);
+        const std::span<std::int64_t> numbers = this->make(integers_, i);
         std::iota(numbers.begin(), numbers.end(), row_number + 1);
         break;
       }
       case Kind::One:
-        std::ranges::fill(this->make_integers(i), 1);
+        std::ranges::fill(this->make(integers_, i), 1);
         break;
     }
   }

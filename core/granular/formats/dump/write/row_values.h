@@ -54,8 +54,8 @@ public:
   std::span<const Column> columns() const noexcept { return columns_; }
 
 private:
-  std::span<std::int64_t> make_integers(std::size_t column);
-  std::span<double> make_reals(std::size_t column);
+  template <class Number>
+  std::span<Number> make(std::vector<std::vector<Number>>& all, std::size_t column);
   bool find_in_place(const ColumnSource& source, Column& column) const noexcept;
   void load_array(const ColumnSource& source, std::size_t column, bool as_doubles);
   void load_points(const FrameView& frame, const ColumnPlan& plan);

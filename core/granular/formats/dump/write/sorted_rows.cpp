@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/formats/dump/write/sorted_rows.h"
+#include "granular/formats/dump/write/frame_plan.h"
 
 #include "granular/common/shares.h"
 #include "granular/formats/dump/write/row_values.h"
+#include "granular/particles/point_forms.h"
 #include "granular/sorting/sort_rows.h"
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <span>
 
 namespace granular
 {
@@ -23,26 +26,6 @@ ValueType type_of(const ColumnSource& column) noexcept
   return array && column.values.type == ValueType::Text ? ValueType::Text
     : integer                                           ? ValueType::Int64
                                                         : ValueType::Float64;
-}
-
-template <class From, class To>
-void copy_numbers(const RowValues::Column& column, std::size_t rows, To* to)
-{
-  for (std::size_t row = 0; row < rows; ++row)
-  {
-    to[row] = static_cast<To>(column.at<From>(row));
-  }
-}
-
-/// The integers of a column, of whatever width.
-void copy_integers(const RowValues::Column& column, std::size_t rows, std::int64_t* to)
-{
-  if (column.type == ValueType::Int32)
-  {
-    copy_numbers<std::int32_t>(column, rows, to);
-    return;
-  }
-  copy_numbers<std::int64_t>(column, rows, to);
 }
 }
 
@@ -79,6 +62,8 @@ void SortedRows::copy(const FrameView& frame, const FramePlan& plan, int rank, P
   }
   ids_ = Block(rows * sizeof(std::int64_t));
   std::vector<TextDictionary> words(rows_.arrays.size());
+  std::array<std::int64_t, RowValues::most_rows> numbers;
+  std::iota(numbers.begin(), numbers.end(), 0);
   RowValues values;
   std::int64_t done = 0;
   constexpr auto most = static_cast<std::int64_t>(RowValues::most_rows);
@@ -86,30 +71,29 @@ void SortedRows::copy(const FrameView& frame, const FramePlan& plan, int rank, P
   {
     progress.step(static_cast<double>(first) / static_cast<double>(frame.rows));
     values.load(frame, wanted, plan.header.box, first, std::min(most, frame.rows - first), 0);
+    const auto kept = std::span<const std::int64_t>(numbers).first(values.rows());
+    const auto load = [&](const RowValues::Column& column, auto* to) {
+      load_numbers({ column.type, column.data, column.step }, kept, to + done);
+    };
     for (std::size_t i = 0; i < rows_.arrays.size(); ++i)
     {
       const RowValues::Column& column = values.columns()[i];
-      auto* indices = static_cast<std::int32_t*>(rows_.arrays[i].block.data()) + done;
+      void* const to = rows_.arrays[i].block.data();
       switch (rows_.arrays[i].info.type)
       {
         case ValueType::Text:
-          for (const std::string* text : column.texts)
-          {
-            *indices++ = words[i].index(*text, {});
-          }
+          std::ranges::transform(column.texts, static_cast<std::int32_t*>(to) + done,
+            [&](const std::string* text) { return words[i].index(*text, {}); });
           break;
         case ValueType::Float64:
-          copy_numbers<double>(
-            column, values.rows(), static_cast<double*>(rows_.arrays[i].block.data()) + done);
+          load(column, static_cast<double*>(to));
           break;
         default:
-          copy_integers(
-            column, values.rows(), static_cast<std::int64_t*>(rows_.arrays[i].block.data()) + done);
+          load(column, static_cast<std::int64_t*>(to));
           break;
       }
     }
-    copy_integers(
-      values.columns().back(), values.rows(), static_cast<std::int64_t*>(ids_.data()) + done);
+    load(values.columns().back(), static_cast<std::int64_t*>(ids_.data()));
     done += static_cast<std::int64_t>(values.rows());
   }
   for (std::size_t i = 0; i < words.size(); ++i)
