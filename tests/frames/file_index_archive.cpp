@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The knowledge of a rank about files, as bytes for others: it comes back as it was, and other bytes are refused.
-#include "granular/frames/frame_order.h"
+#include "granular/frames/run_index_parts.h"
 
 #include "../support/dumps.h"
 

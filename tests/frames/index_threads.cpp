@@ -2,9 +2,8 @@
 // An index does not depend on how many threads make it: of one file in which several pass over a frame,
 // and of many files.
 #include "granular/formats/dump/grammar/dump_files.h"
-#include "granular/frames/frame_order.h"
 #include "granular/frames/run_index.h"
-#include "granular/frames/update_files.h"
+#include "granular/frames/run_index_parts.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"

@@ -68,31 +68,23 @@ ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
 }
 
 /// A column seen twice stays out of the group: which of the two is meant cannot be known.
-void join(Group& group, std::string_view array, std::size_t component, int column)
-{
-  group.array = array;
-  group.components = std::max(group.components, component + 1);
-  group.columns.try_emplace(component, column);
-}
-
 Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const KnownColumn> table)
 {
   Groups groups;
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     const KnownColumn* known = find_known_column(columns[i].name, table);
-    std::string_view base;
-    if (known && known->components > 1)
+    const bool from_table = known && known->components > 1;
+    std::string_view base = from_table ? known->array : std::string_view();
+    const int index = from_table ? known->component + 1 : split_index(columns[i].name, base);
+    if (index > 0)
     {
-      Group& group = groups[std::string(known->array) + "*"];
-      group.from_table = true;
-      group.components = static_cast<std::size_t>(known->components);
-      join(group, known->array, static_cast<std::size_t>(known->component), static_cast<int>(i));
-    }
-    else if (const int index = split_index(columns[i].name, base); index > 0)
-    {
-      join(
-        groups[std::string(base)], base, static_cast<std::size_t>(index - 1), static_cast<int>(i));
+      Group& group = groups[std::string(base) + (from_table ? "*" : "")];
+      group.array = base;
+      group.from_table = from_table;
+      group.components = std::max(
+        group.components, static_cast<std::size_t>(from_table ? known->components : index));
+      group.columns.try_emplace(static_cast<std::size_t>(index - 1), static_cast<int>(i));
     }
   }
   return groups;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/frames/frame_order.h"
+#include "granular/frames/run_index_parts.h"
 
 #include "granular/frames/named_steps.h"
 #include "granular/numbers/number.h"

@@ -2,9 +2,8 @@
 // One index for all ranks: the kinds of frames, then the files with their frames, then their order. Numbers are as in memory.
 #include "granular/common/hash.h"
 #include "granular/common/pass.h"
-#include "granular/frames/frame_order.h"
 #include "granular/frames/run_index.h"
-#include "granular/frames/update_files.h"
+#include "granular/frames/run_index_parts.h"
 #include "granular/parallel/executor.h"
 
 #include <algorithm>

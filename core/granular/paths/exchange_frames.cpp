@@ -5,7 +5,7 @@
 #include "granular/common/shares.h"
 #include "granular/frames/header_archive.h"
 #include "granular/parallel/trade.h"
-#include "granular/sorting/find_ids_at.h"
+#include "granular/sorting/sort_rows.h"
 
 #include <algorithm>
 #include <bit>

@@ -4,7 +4,7 @@
 #include "granular/common/error.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/trade.h"
-#include "granular/sorting/find_ids_at.h"
+#include "granular/sorting/sort_rows.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 
 #include "granular/common/shares.h"
 #include "granular/parallel/trade.h"
-#include "granular/sorting/find_ids_at.h"
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <string>
@@ -343,6 +343,30 @@ void sort_together(Table& frame, const Block& ids, Communicator& ranks, Notices&
   };
   for_each_block(frame, all.point_width, move_rows);
 }
+}
+
+std::vector<std::int64_t> find_ids_at(const std::vector<std::int64_t>& places,
+  std::span<const std::int64_t> sorted, Communicator& ranks)
+{
+  std::vector<std::int64_t> low(places.size(), std::numeric_limits<std::int64_t>::min());
+  std::vector<std::int64_t> high(places.size(), std::numeric_limits<std::int64_t>::max());
+  std::vector<std::int64_t> up_to(places.size());
+  while (low != high)
+  {
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const auto end =
+        std::upper_bound(sorted.begin(), sorted.end(), std::midpoint(low[i], high[i]));
+      up_to[i] = end - sorted.begin();
+    }
+    ranks.sum(up_to);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const std::int64_t middle = std::midpoint(low[i], high[i]);
+      (up_to[i] > places[i] ? high[i] : low[i]) = up_to[i] > places[i] ? middle : middle + 1;
+    }
+  }
+  return low;
 }
 
 void sort_by_id(Table& frame, const Block& ids, Communicator& ranks, Notices& notices,

@@ -8,6 +8,8 @@
 #include "granular/particles/table.h"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace granular
 {
@@ -18,6 +20,11 @@ namespace granular
 /// then. Needs memory for one more copy of the largest block and about 40 bytes per row. Collective.
 void sort_by_id(Table& frame, const Block& ids, Communicator& ranks, Notices& notices,
   const Where& where, const Executor& executor = Executor());
+
+/// Returns the ids that have these places among the sorted ids of all ranks: for each the smallest id with more ids up to
+/// it than the place has before it. Found by halving, for all places at once, the same on all ranks. Collective.
+std::vector<std::int64_t> find_ids_at(const std::vector<std::int64_t>& places,
+  std::span<const std::int64_t> sorted, Communicator& ranks);
 
 /// Keeps `count` rows from `first` on and removes the others.
 void keep_rows(Table& frame, std::int64_t first, std::int64_t count);

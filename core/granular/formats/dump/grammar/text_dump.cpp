@@ -71,6 +71,18 @@ bool makes_schema(const std::vector<std::string>& names,
   return names.size() == columns.size();
 }
 
+/// Takes the words of the first row, if there is one. They stay until the scanner moves on.
+bool take_first_row(TextScanner& scanner, std::int64_t rows, std::vector<std::string_view>& words)
+{
+  std::string_view line;
+  words.clear();
+  while (rows > 0 && words.empty() && scanner.next(line))
+  {
+    append_words(line, words);
+  }
+  return !words.empty();
+}
+
 /// Finds the frames of a text, one after the other.
 class Indexer
 {
@@ -175,14 +187,7 @@ private:
   const std::shared_ptr<const FrameKind>& kind()
   {
     const std::int64_t line_of_names = scanner_.last_line();
-    std::string_view line;
-    first_row_.clear();
-    bool found = reader_.header().rows > 0;
-    while (found && first_row_.empty())
-    {
-      found = scanner_.next(line);
-      append_words(found ? line : std::string_view(), first_row_);
-    }
+    const bool found = take_first_row(scanner_, reader_.header().rows, first_row_);
     const std::vector<std::string>& names = reader_.column_names();
     const std::string& units = reader_.header().units;
     if (!kind_)
@@ -333,9 +338,11 @@ bool is_text_dump(std::string_view first_bytes)
   return rows == RowsOf::Particles || rows == RowsOf::Any;
 }
 
-bool makes_columns(const std::vector<std::string>& names,
-  const std::vector<std::string_view>& first_row, const ColumnSchema& schema)
+bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnSchema& schema)
 {
+  const std::vector<std::string>& names = header.column_names();
+  std::vector<std::string_view> first_row;
+  take_first_row(scanner, header.header().rows, first_row);
   if (makes_schema(names, first_row, schema))
   {
     return true;

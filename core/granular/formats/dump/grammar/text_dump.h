@@ -9,7 +9,6 @@
 #include "granular/text/text_scanner.h"
 
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,10 +21,8 @@ std::optional<RowsOf> tell_rows(std::string_view first_bytes);
 /// Returns true if a file begins like a text dump of particles, or like one whose rows the bytes do not tell.
 bool is_text_dump(std::string_view first_bytes);
 
-/// Returns true if the names in a header and the words of the first row make these columns. first_row is empty if there
-/// are no rows.
-bool makes_columns(const std::vector<std::string>& names,
-  const std::vector<std::string_view>& first_row, const ColumnSchema& schema);
+/// Returns true if the names in a header and the words of the first row, which the scanner is at, make these columns.
+bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnSchema& schema);
 
 /// Indexes a text dump; see index_dump.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,

@@ -36,18 +36,6 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   header_.units = entry.kind->units;
 }
 
-/// The words of the first row, if there is one, until the scanner moves on.
-std::vector<std::string_view> TextRows::first_row(TextScanner& scanner) const
-{
-  std::vector<std::string_view> words;
-  std::string_view line;
-  while (header_.rows > 0 && words.empty() && scanner.next(line))
-  {
-    append_words(line, words);
-  }
-  return words;
-}
-
 /// Where the header and the first row are not what the index says, the header gets -1 rows.
 void TextRows::read_header()
 {
@@ -66,14 +54,11 @@ void TextRows::read_header()
       throw; // compressed data that are damaged
     }
   }
-  header_ = std::move(reader.header());
   rows_offset_ = scanner.offset();
   rows_line_ = scanner.line();
-  if (!is_header ||
-    !makes_columns(reader.column_names(), this->first_row(scanner), entry_.kind->schema))
-  {
-    header_.rows = -1;
-  }
+  is_header = is_header && makes_columns(reader, scanner, entry_.kind->schema);
+  header_ = std::move(reader.header());
+  header_.rows = is_header ? header_.rows : -1;
 }
 
 std::vector<int> TextRows::digits() const

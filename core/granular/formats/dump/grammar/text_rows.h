@@ -29,7 +29,6 @@ private:
   friend class TextReader;
 
   void read_header();
-  std::vector<std::string_view> first_row(TextScanner& scanner) const;
   bool is_mended(const Misfit& misfit) const;
   Where where(const Misfit& misfit) const;
   std::string name_of(const Misfit& misfit) const;

@@ -19,20 +19,11 @@
 
 namespace granular
 {
-namespace
-{
-/// Remarks of a rank about its rows.
-struct Remarks
-{
-  Misfits misfits;
-  Notices notices;
-  RoundingLoss loss;
-};
-
+/// What a rank tells the others of its part.
 template <class Archive>
-void pass(Archive& archive, typename Archive::template Passed<Remarks>& remarks)
+static void pass(Archive& archive, typename Archive::template Passed<DumpPart>& part)
 {
-  archive.list(remarks.misfits,
+  archive.list(part.misfits,
     [&](auto& misfit)
     {
       archive.number(misfit.column);
@@ -40,10 +31,12 @@ void pass(Archive& archive, typename Archive::template Passed<Remarks>& remarks)
       archive.text(misfit.word);
       pass(archive, misfit.where);
     });
-  pass(archive, remarks.notices);
-  archive.number(remarks.loss);
+  pass(archive, part.notices);
+  archive.number(part.loss);
 }
 
+namespace
+{
 std::string text_of(const Misfit& misfit)
 {
   return std::string("expected ") +
@@ -228,9 +221,11 @@ DumpPart decode(
 /// Puts together what all ranks have to say, on all: the first misfits, and each notice once.
 void share_remarks(Communicator& ranks, DumpPart& part)
 {
-  const Remarks own{ std::exchange(part.misfits, {}), std::exchange(part.notices, {}), part.loss };
+  const std::vector<DumpPart> of_ranks = gather(ranks, part);
+  part.misfits.clear();
+  part.notices.clear();
   std::set<std::string> said;
-  for (const Remarks& remarks : gather(ranks, own))
+  for (const DumpPart& remarks : of_ranks)
   {
     part.misfits = part.misfits.empty() ? remarks.misfits : part.misfits;
     part.loss.add(remarks.loss);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef granular_frames_frame_order_h
-#define granular_frames_frame_order_h
+#ifndef granular_frames_run_index_parts_h
+#define granular_frames_run_index_parts_h
 
 #include "granular/common/error.h"
+#include "granular/common/progress.h"
 #include "granular/frames/file_index.h"
 #include "granular/frames/run_index.h"
 
@@ -52,6 +53,13 @@ struct FrameOrder
 /// Returns the frames of the files in order; see RepeatedSteps for frames that are left out with a notice.
 FrameOrder order_frames(
   const std::vector<FileIndex>& files, RepeatedSteps repeated, Notices& notices);
+
+/// Calls update_file_index for each of many files, on several threads. Each thread takes one file at a time; if there
+/// are fewer files than threads, they share large frames. Seek points are kept for the first compressed files, as far
+/// as memory allows; frames of other compressed files are read from the beginning of the file. After an exception the files
+/// are unusable.
+void update_files(std::vector<FileIndex>& files, const std::vector<std::string>& column_names,
+  int threads, Progress& progress, std::size_t most_seek_bytes = std::size_t{ 1 } << 28);
 
 /// Returns the indexes of files as bytes, for other ranks; without errors, layouts and what the user was told.
 std::string encode_files(const std::vector<FileIndex>& files);
