@@ -36,7 +36,7 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
   header_.units = entry.kind->units;
 }
 
-/// Where the header and the first row are not what the index says, the header gets -1 rows.
+/// Reads the header, which gets -1 rows if it or the first row is not what the index says.
 void TextRows::read_header()
 {
   constexpr std::size_t window = 4096; // most headers are shorter

@@ -19,7 +19,7 @@
 
 namespace granular
 {
-/// What a rank tells the others of its part.
+/// The remarks that a rank sends to the others about its part.
 template <class Archive>
 static void pass(Archive& archive, typename Archive::template Passed<DumpPart>& part)
 {
