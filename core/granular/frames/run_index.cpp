@@ -127,7 +127,7 @@ void update_files(std::vector<FileIndex>& files, const std::vector<std::string>&
   std::set<std::size_t> kept;          // files with seek points
   std::size_t bytes = 0;               // of these points
   std::size_t end_kept = files.size(); // from this file on none are kept
-  // in whatever order files are done, the points of the first ones stay, and there is never more than one file too many
+  // also while they are found, there are no more than that; in whatever order files are done, the first ones keep theirs
   const auto keep_points = [&](std::size_t file)
   {
     const std::lock_guard lock(mutex);
