@@ -116,7 +116,7 @@ private:
 class BondCollector
 {
 public:
-  /// blocks: of a RecordScan. ids and points of all rows, from 0, which may not be filled yet; if null they are collected,
+  /// blocks: of the layout. ids and points of all rows, from 0, which may not be filled yet; if null they are collected,
   /// too.
   BondCollector(const RecordPlan& plan, std::int64_t rows, std::size_t blocks,
     const std::int64_t* ids, const double* points, const std::shared_ptr<BlockPool>& pool);

@@ -16,6 +16,7 @@ namespace
 {
 constexpr auto least_doubles = static_cast<std::int64_t>(RecordSlots::common);
 constexpr std::int64_t records_a_report = 65536;
+constexpr std::int64_t block_doubles = std::int64_t{ 1 } << 17;
 constexpr std::int64_t most_int = std::numeric_limits<std::int32_t>::max();
 
 bool in_range(std::int64_t number, std::int64_t low, std::int64_t high) noexcept
@@ -74,34 +75,26 @@ public:
       this->find_none();
       return std::move(result_);
     }
-    this->search([&](std::int64_t at) { return this->try_to_end(at); });
+    this->search(false);
     if (!result_.found && header_.time)
     {
-      this->search([&](std::int64_t at) { return this->try_inside(at); });
+      this->search(true);
     }
     return std::move(result_);
   }
 
 private:
-  /// Chunks from one with records on.
-  struct Run
-  {
-    std::int64_t chunks = 0;
-    std::int64_t end = 0; ///< byte behind the last
-  };
-
   /// No particles: a zero for each process. With meshes behind them they cannot be told from what comes before.
   void find_none()
   {
     budget_ = budget_of(size_, header_.processes);
-    const std::int64_t first = size_ - header_.processes * count_bytes;
-    const bool there = first >= begin_ && this->zeros(first, size_);
+    const std::int64_t first = this->zeros_before(size_, header_.processes);
+    const bool there = size_ - first == header_.processes * count_bytes;
     result_.found = there || header_.time;
-    this->take(there ? first : size_, size_);
+    this->take(there ? first : size_, size_, {});
   }
 
-  template <class TryAt>
-  void search(const TryAt& try_at)
+  void search(bool inside)
   {
     budget_ = budget_of(size_, header_.processes);
     constexpr std::size_t pair_bytes = count_bytes + sizeof(double);
@@ -109,101 +102,72 @@ private:
       hops_.source(), hops_.swapped(), begin_, size_, 8 * least_doubles, is_pair,
       [&](std::int64_t at)
       {
-        result_.found = try_at(at);
+        result_.found = this->try_at(at, inside);
         result_.gave_up = !result_.found && budget_.spent();
         return result_.found || result_.gave_up;
       },
       progress_);
   }
 
-  /// From a chunk that has records to the end of the file.
-  bool try_to_end(std::int64_t at)
+  /// Tries the chunks from one that has records to the end of the file or, inside of it, to the last that has, wherever it ends.
+  bool try_at(std::int64_t at, bool inside)
   {
-    const Run run = this->hop(at);
-    if (run.end != size_)
+    if (!inside && this->hop(at) != size_)
     {
       return false;
     }
-    const std::int64_t first = at - (header_.processes - run.chunks) * count_bytes;
-    if (first < begin_ || !this->zeros(first, at))
+    walker_.restart(inside);
+    std::vector<RestartChunk> chunks;
+    std::int64_t end = at;
+    while (inside ? walker_.records() < header_.atoms : end < size_)
     {
-      return false;
-    }
-    walker_.restart(false);
-    for (std::int64_t chunk = at; chunk < size_;)
-    {
-      const std::int64_t doubles = this->doubles_at(chunk); // which may be others by now
-      if (doubles < 0 || !walker_.walk(chunk + count_bytes, doubles))
+      const bool may = std::ssize(chunks) < header_.processes && !budget_.spent();
+      const std::int64_t doubles = may ? this->doubles_at(end) : -1;
+      if (doubles < 0 || !walker_.walk(end + count_bytes, doubles))
       {
         return false;
       }
-      chunk += count_bytes + doubles * 8;
+      chunks.push_back({ {}, end + count_bytes, doubles });
+      end += count_bytes + doubles * 8;
+    }
+    // those without records are before, as far as there are zeros, else behind
+    std::int64_t missing = header_.processes - std::ssize(chunks);
+    const std::int64_t first = this->zeros_before(at, missing);
+    missing -= (at - first) / count_bytes;
+    for (; inside && missing > 0 && this->doubles_at(end) == 0; --missing)
+    {
+      end += count_bytes;
+      chunks.push_back({ {}, end, 0 });
+    }
+    if (missing > 0)
+    {
+      return false;
     }
     if (walker_.records() != header_.atoms)
     {
-      result_.misfit = std::max(result_.misfit.value_or(0), walker_.records());
+      result_.misfit =
+        inside ? result_.misfit : std::max(result_.misfit.value_or(0), walker_.records());
       return false;
     }
-    this->take(first, size_);
+    this->take(first, at, chunks);
     return true;
   }
 
-  /// Hops over chunks, as many as there are processes or up to the end of the file.
-  Run hop(std::int64_t at)
+  /// Hops over chunks, as many as there are processes or up to the end of the file. Returns the byte behind the last; -1: there
+  /// are others.
+  std::int64_t hop(std::int64_t at)
   {
-    Run run = { 0, at };
-    while (run.end < size_ && run.chunks < header_.processes)
+    for (int chunks = 0; at < size_ && chunks < header_.processes; ++chunks)
     {
-      const std::int64_t doubles = this->doubles_at(run.end);
+      const std::int64_t doubles = this->doubles_at(at);
       const bool fits = doubles == 0 || doubles >= least_doubles;
       if (!fits || budget_.spent())
       {
-        return { 0, -1 };
+        return -1;
       }
-      run.end += count_bytes + doubles * 8;
-      ++run.chunks;
+      at += count_bytes + doubles * 8;
     }
-    return run;
-  }
-
-  /// From a chunk that has records to the last that has, wherever it ends.
-  bool try_inside(std::int64_t at)
-  {
-    Run run = { 0, at };
-    walker_.restart(true);
-    while (walker_.records() < header_.atoms)
-    {
-      const std::int64_t doubles =
-        run.chunks < header_.processes && !budget_.spent() ? this->doubles_at(run.end) : -1;
-      if (doubles < 0 || !walker_.walk(run.end + count_bytes, doubles))
-      {
-        return false;
-      }
-      run.end += count_bytes + doubles * 8;
-      ++run.chunks;
-    }
-    if (walker_.records() != header_.atoms)
-    {
-      return false;
-    }
-    // those without records are before, as far as there are zeros, else behind
-    std::int64_t missing = header_.processes - run.chunks;
-    std::int64_t first = at;
-    for (;
-         missing > 0 && first - count_bytes >= begin_ && this->doubles_at(first - count_bytes) == 0;
-         --missing)
-    {
-      first -= count_bytes;
-    }
-    for (; missing > 0 && this->doubles_at(run.end) == 0; --missing)
-    {
-      run.end += count_bytes;
-    }
-    if (missing == 0)
-    {
-      this->take(first, run.end);
-    }
-    return missing == 0;
+    return at;
   }
 
   /// The count of a chunk, for whose doubles there is room; -1 where there is none.
@@ -216,32 +180,27 @@ private:
     return doubles > (size_ - at - count_bytes) / 8 ? -1 : doubles;
   }
 
-  /// Returns true if there are only chunks without records.
-  bool zeros(std::int64_t first, std::int64_t end)
+  /// Returns the place from which there are only chunks without records up to another, at most so many.
+  std::int64_t zeros_before(std::int64_t end, std::int64_t most)
   {
-    while (first < end && !budget_.spent() && this->doubles_at(first) == 0)
+    std::int64_t first = end - std::min(most, (end - begin_) / count_bytes) * count_bytes;
+    for (std::int64_t at = first; at < end; at += count_bytes)
     {
-      first += count_bytes;
+      first = this->doubles_at(at) == 0 ? first : at + count_bytes;
     }
-    return first == end;
+    return first;
   }
 
-  /// All chunks were there a moment ago.
-  void take(std::int64_t first, std::int64_t end)
+  /// Takes chunks without records between two places, and those behind them.
+  void take(std::int64_t first, std::int64_t end, const std::vector<RestartChunk>& behind)
   {
     result_.begin = first;
-    for (std::int64_t at = first; at < end;)
+    for (std::int64_t at = first; at < end; at += count_bytes)
     {
-      const std::int64_t doubles = this->doubles_at(at);
-      if (doubles < 0)
-      {
-        throw IoError("the file changed while it was read: expected the number of doubles of a "
-                      "process, got another one",
-          { hops_.source().path(), 0, at });
-      }
-      result_.chunks.push_back({ {}, at + count_bytes, doubles });
-      at += count_bytes + doubles * 8;
+      result_.chunks.push_back({ {}, at + count_bytes, 0 });
     }
+    result_.chunks.insert(result_.chunks.end(), behind.begin(), behind.end());
+    result_.blocks = walker_.blocks();
   }
 
   const RestartHeader& header_;
@@ -295,6 +254,12 @@ bool RecordWalker::walk(std::int64_t offset, std::int64_t doubles)
     {
       return false;
     }
+    if (at_ == offset || blocks_.back().doubles >= block_doubles)
+    {
+      blocks_.push_back({ .offset = at_, .first_row = records_ });
+    }
+    blocks_.back().doubles += static_cast<std::int64_t>(length);
+    ++blocks_.back().records;
     if (++records_ % records_a_report == 0)
     {
       progress_.step(static_cast<double>(at_) / static_cast<double>(bytes_.size()));

@@ -24,6 +24,7 @@ public:
   void restart(bool in_box) noexcept
   {
     records_ = 0;
+    blocks_.clear();
     in_box_ = in_box;
   }
 
@@ -34,6 +35,10 @@ public:
 
   /// Returns the number of records in all chunks since the last restart.
   std::int64_t records() const noexcept { return records_; }
+
+  /// Returns these records in blocks of about 1 MiB, of which none is in two chunks.
+  const std::vector<RecordBlock>& blocks() const noexcept { return blocks_; }
+
   std::int64_t at() const noexcept { return at_; }
 
 private:
@@ -53,6 +58,7 @@ private:
   bool in_box_ = false;
   Progress& progress_;
   std::int64_t records_ = 0;
+  std::vector<RecordBlock> blocks_;
   std::int64_t at_ = 0;
 };
 
@@ -62,6 +68,7 @@ struct ChunkSearch
   bool found = false;
   std::int64_t begin = 0; ///< byte of the count of the first chunk
   std::vector<RestartChunk> chunks;
+  std::vector<RecordBlock> blocks;
   std::optional<std::int64_t>
     misfit;             ///< the most records of chunks that were right but for this number
   bool gave_up = false; ///< too many places looked like chunks

@@ -20,9 +20,8 @@ namespace
 {
 constexpr std::int64_t count_bytes = 4;
 
-/// The file of one process.
-RestartChunk read_process_file(
-  const std::string& path, const RestartLayout& layout, std::int64_t& records, Progress& progress)
+/// Adds the file of one process.
+void read_process_file(const std::string& path, RestartLayout& layout, Progress& progress)
 {
   constexpr std::int64_t any = std::numeric_limits<std::int64_t>::max();
   std::unique_ptr<ByteSource> source = open_file(path);
@@ -51,8 +50,14 @@ RestartChunk read_process_file(
     bytes.refuse("the record of a particle",
       "other numbers (" + std::to_string(walker.records()) + " were before it)", walker.at());
   }
-  records += walker.records();
-  return { path, count_bytes, doubles, stamp };
+  for (RecordBlock block : walker.blocks())
+  {
+    block.path = path;
+    block.first_row += layout.records;
+    layout.blocks.push_back(std::move(block));
+  }
+  layout.records += walker.records();
+  layout.chunks.push_back({ path, count_bytes, doubles, stamp });
 }
 }
 
@@ -117,7 +122,7 @@ void read_process_files(const ProcessNames& names, RestartLayout& layout, Progre
           " in a file of their own, got none of this name",
         { path });
     }
-    layout.chunks.push_back(read_process_file(path, layout, layout.records, progress));
+    read_process_file(path, layout, progress);
   }
   if (layout.records != layout.header.atoms)
   {

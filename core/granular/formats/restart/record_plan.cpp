@@ -16,8 +16,6 @@ namespace
 {
 using Kind = RecordColumn::Kind;
 
-constexpr std::int64_t doubles_at_first = 8192; // of the file, that are looked at for the plan
-
 const RecordColumn common_columns[] = { { "id", Kind::Id, 0, 0 }, { "type", Kind::Type, 0, 0 },
   { "mask", Kind::Mask, 0, 0 }, { "x", Kind::Double, 0, RecordSlots::x },
   { "y", Kind::Double, 0, RecordSlots::x + 1 }, { "z", Kind::Double, 0, RecordSlots::x + 2 },
@@ -91,10 +89,16 @@ RecordPlan::RecordPlan(
   const Where where{ source.path() };
   this->name_styles(layout, where, notices);
   known_fixes_ = has_fixes_ ? layout.fixes.size() : 0;
-  RecordScan scan(source, layout, doubles_at_first);
+  RecordBuffer buffer;
   bool first = true;
-  const auto look = [&](std::size_t, std::size_t, const RecordBatch& batch)
+  for (const RecordBlock& block : layout.blocks)
   {
+    if (!first && !this->needs_history())
+    {
+      break;
+    }
+    progress.step(static_cast<double>(block.first_row) / static_cast<double>(layout.records));
+    const RecordBatch batch = read_records(source, layout, block, buffer);
     for (std::size_t i = 0; i < batch.size() && (first || this->needs_history()); ++i)
     {
       try
@@ -117,12 +121,7 @@ RecordPlan::RecordPlan(
         refuse_record(batch, i, error.text());
       }
     }
-    if (!this->needs_history())
-    {
-      scan.stop();
-    }
-  };
-  scan.run(Executor(), this->needs_history() ? layout.records : 1, look, progress);
+  }
   if (layout.records == 0)
   {
     this->find_fixes(layout, {}, where, notices);

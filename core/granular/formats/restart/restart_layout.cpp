@@ -179,6 +179,7 @@ public:
     {
       layout_.begin = search.begin;
       layout_.chunks = std::move(search.chunks);
+      layout_.blocks = std::move(search.blocks);
       layout_.records = layout_.header.atoms;
       this->take_fixes(layout_.begin);
     }

@@ -70,6 +70,16 @@ struct RestartChunk
   FileStamp stamp = {}; ///< of a file of its own, when it was opened
 };
 
+/// Records of a chunk, one behind the other, that a thread reads at a time.
+struct RecordBlock
+{
+  std::string path = {};      ///< as that of the chunk
+  std::int64_t offset = 0;    ///< byte of the first
+  std::int64_t doubles = 0;   ///< of all
+  std::int64_t first_row = 0; ///< number of the first, from 0, in all chunks
+  std::int64_t records = 0;
+};
+
 /// The positions of all parts of a restart file.
 struct RestartLayout : FileLayout
 {
@@ -83,9 +93,10 @@ struct RestartLayout : FileLayout
   std::vector<RestartFix> fixes;
   std::vector<RestartChunk>
     chunks; ///< of ranks 0, 1, ..., some without records; none if there are no particles and meshes follow
-  std::int64_t records = 0; ///< in all chunks
-  std::int64_t begin = 0;   ///< byte of the count of the first chunk; of a `base` file its end
-  std::int64_t size = 0;    ///< bytes of the file, unpacked
+  std::vector<RecordBlock> blocks; ///< all records, in order
+  std::int64_t records = 0;        ///< in all chunks
+  std::int64_t begin = 0; ///< byte of the count of the first chunk; of a `base` file its end
+  std::int64_t size = 0;  ///< bytes of the file, unpacked
 };
 
 /// Finds all parts. The length of the force fields' data is unknown, so each byte from there on is tried as the start of the

@@ -110,21 +110,21 @@ class FrameReader
 public:
   FrameReader(const ByteSource& source, const RestartLayout& layout, int history_layout,
     const Request& request, const RecordPlan& plan)
-    : layout_(layout)
+    : source_(source)
+    , layout_(layout)
     , history_layout_(history_layout)
     , request_(request)
     , plan_(plan)
     , first_(begin_of_part(layout.records, request.piece, request.pieces))
     , end_(begin_of_part(layout.records, request.piece + 1, request.pieces))
     , executor_(request.threads)
-    , scan_(source, layout)
     , particles_(plan, layout, request, first_, end_)
   {
     if (request.bonds && plan.has_bonds())
     {
       const bool all = request.pieces == 1;
       const bool absolute = request.point_origin == Vector3{};
-      bonds_.emplace(plan, layout.records, scan_.blocks(), all ? particles_.ids() : nullptr,
+      bonds_.emplace(plan, layout.records, layout.blocks.size(), all ? particles_.ids() : nullptr,
         all && absolute ? particles_.points() : nullptr, request.pool);
     }
   }
@@ -133,26 +133,38 @@ public:
   {
     // what fixes have is the same in all records or left out, which all pieces must know
     const bool all = bonds_ || plan_.fixes() > 0;
-    std::vector<RecordRows> rows(executor_.workers(scan_.blocks()), RecordRows(plan_));
-    const auto visit = [&](std::size_t worker, std::size_t block, const RecordBatch& batch)
-    {
-      const auto size = static_cast<std::int64_t>(batch.size());
-      const auto place_of = [&](std::int64_t row) {
-        return static_cast<std::size_t>(std::clamp<std::int64_t>(row - batch.first_row, 0, size));
-      };
-      const std::size_t end = all ? batch.size() : place_of(end_);
-      RecordRows& some = rows[worker];
-      for (std::size_t at = all ? 0 : place_of(first_); at < end; at += some.count)
+    const auto is_needed = [&](const RecordBlock& block)
+    { return all || (block.first_row < end_ && block.first_row + block.records > first_); };
+    const std::vector<RecordBlock>& blocks = layout_.blocks;
+    const auto first = std::ranges::find_if(blocks, is_needed) - blocks.begin();
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(blocks, is_needed));
+    std::vector<RecordRows> rows(executor_.workers(count), RecordRows(plan_));
+    std::vector<RecordBuffer> buffers(rows.size());
+    Turns turns;
+    executor_.parallel_for(
+      count,
+      [&](std::size_t number, std::size_t worker)
       {
-        some.load(plan_, batch, at, end);
-        particles_.store(some);
-        if (bonds_)
+        std::optional<Turn> turn;
+        if (!source_.concurrent())
         {
-          bonds_->collect(block, batch, some);
+          turn.emplace(turns, number).wait();
         }
-      }
-    };
-    scan_.run(executor_, all ? layout_.records : end_, visit, progress);
+        const std::size_t block = static_cast<std::size_t>(first) + number;
+        const RecordBatch batch = read_records(source_, layout_, blocks[block], buffers[worker]);
+        turn.reset();
+        RecordRows& some = rows[worker];
+        for (std::size_t at = 0; at < batch.size(); at += some.count)
+        {
+          some.load(plan_, batch, at, batch.size());
+          particles_.store(some);
+          if (bonds_)
+          {
+            bonds_->collect(block, batch, some);
+          }
+        }
+      },
+      progress);
   }
 
   Tables take(const Where& where, Notices& notices, Progress& progress)
@@ -295,6 +307,7 @@ private:
       });
   }
 
+  const ByteSource& source_;
   const RestartLayout& layout_;
   int history_layout_;
   const Request& request_;
@@ -302,7 +315,6 @@ private:
   std::int64_t first_;
   std::int64_t end_;
   Executor executor_;
-  RecordScan scan_;
   ParticleStore particles_;
   std::optional<BondCollector> bonds_;
   std::vector<std::size_t> first_bonds_; ///< of each block in the table
