@@ -57,12 +57,13 @@ constexpr auto is_pair = [](const char* bytes, bool swapped, std::int64_t left) 
 class ChunkFinder
 {
 public:
-  ChunkFinder(const ByteSource& source, bool swapped, const RestartHeader& header,
-    std::int64_t begin, Progress& progress)
-    : header_(header)
+  ChunkFinder(
+    const ByteSource& source, std::int64_t begin, RestartLayout& layout, Progress& progress)
+    : layout_(layout)
+    , header_(layout.header)
     , begin_(begin)
-    , hops_(source, swapped, &budget_)
-    , walker_(source, swapped, header, budget_, progress)
+    , hops_(source, layout.swapped, &budget_)
+    , walker_(source, layout.swapped, header_, budget_, progress)
     , size_(hops_.size())
     , progress_(progress)
   {
@@ -73,14 +74,14 @@ public:
     if (header_.atoms == 0)
     {
       this->find_none();
-      return std::move(result_);
+      return result_;
     }
     this->search(false);
     if (!result_.found && header_.time)
     {
       this->search(true);
     }
-    return std::move(result_);
+    return result_;
   }
 
 private:
@@ -194,15 +195,17 @@ private:
   /// Takes chunks without records between two places, and those behind them.
   void take(std::int64_t first, std::int64_t end, const std::vector<RestartChunk>& behind)
   {
-    result_.begin = first;
+    layout_.begin = first;
+    layout_.records = header_.atoms;
     for (std::int64_t at = first; at < end; at += count_bytes)
     {
-      result_.chunks.push_back({ {}, at + count_bytes, 0 });
+      layout_.chunks.push_back({ {}, at + count_bytes, 0 });
     }
-    result_.chunks.insert(result_.chunks.end(), behind.begin(), behind.end());
-    result_.blocks = walker_.blocks();
+    layout_.chunks.insert(layout_.chunks.end(), behind.begin(), behind.end());
+    layout_.blocks = walker_.blocks();
   }
 
+  RestartLayout& layout_;
   const RestartHeader& header_;
   std::int64_t begin_;
   SearchBudget budget_;
@@ -214,10 +217,10 @@ private:
 };
 }
 
-ChunkSearch find_chunks(const ByteSource& source, bool swapped, const RestartHeader& header,
-  std::int64_t begin, Progress& progress)
+ChunkSearch find_chunks(
+  const ByteSource& source, std::int64_t begin, RestartLayout& layout, Progress& progress)
 {
-  return ChunkFinder(source, swapped, header, begin, progress).find();
+  return ChunkFinder(source, begin, layout, progress).find();
 }
 
 RecordWalker::RecordWalker(const ByteSource& source, bool swapped, const RestartHeader& header,

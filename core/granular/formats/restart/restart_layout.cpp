@@ -75,32 +75,27 @@ private:
   {
     at_ = place;
     result_.fixes.clear();
-    result_.found = this->read_global() && this->read_peratom() && at_ == end_;
+    std::int64_t of_records = 0;
+    result_.found =
+      this->read_list(result_.global, false) && this->read_list(of_records, true) && at_ == end_;
     return result_.found;
   }
 
-  bool read_global()
+  /// Reads how many fixes there are, and these: those that add to records, or those with a state.
+  bool read_list(std::int64_t& count, bool of_records)
   {
-    bool right = this->next_count(result_.global);
-    for (std::int64_t i = 0; right && i < result_.global; ++i)
-    {
-      std::int64_t bytes = 0;
-      right =
-        this->pass_text() && this->pass_text() && this->next_count(bytes) && bytes <= end_ - at_;
-      at_ += bytes;
-    }
-    return right;
-  }
-
-  bool read_peratom()
-  {
-    std::int64_t count = 0;
     bool right = this->next_count(count);
     for (std::int64_t i = 0; right && i < count; ++i)
     {
       RestartFix fix;
-      right = this->pass_text(&fix.id) && this->pass_text(&fix.style) && this->next_count(fix.most);
-      result_.fixes.push_back(std::move(fix));
+      right = this->next_text(fix.id) && this->next_text(fix.style) && this->next_count(fix.most);
+      if (of_records)
+      {
+        result_.fixes.push_back(std::move(fix));
+        continue;
+      }
+      right = right && fix.most <= end_ - at_;
+      at_ += fix.most;
     }
     return right;
   }
@@ -118,7 +113,7 @@ private:
     return count >= 0;
   }
 
-  bool pass_text(std::string* text = nullptr)
+  bool next_text(std::string& text)
   {
     constexpr std::int64_t cost = 64; ///< to look at the longest text, in steps
     budget_.steps -= cost;
@@ -127,11 +122,7 @@ private:
     {
       return false;
     }
-    if (text)
-    {
-      *text = bytes_.next_text(at_, "a fix");
-    }
-    at_ = behind;
+    text = bytes_.next_text(at_, "a fix");
     return true;
   }
 
@@ -172,15 +163,10 @@ public:
       read_process_files(*files, layout_, progress_);
       return std::move(layout_);
     }
-    ChunkSearch search =
-      find_chunks(bytes_.source(), layout_.swapped, layout_.header, at_, progress_);
+    const ChunkSearch search = find_chunks(bytes_.source(), at_, layout_, progress_);
     progress_.set_part(0.8, 1);
     if (search.found)
     {
-      layout_.begin = search.begin;
-      layout_.chunks = std::move(search.chunks);
-      layout_.blocks = std::move(search.blocks);
-      layout_.records = layout_.header.atoms;
       this->take_fixes(layout_.begin);
     }
     else
