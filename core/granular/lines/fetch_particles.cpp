@@ -315,15 +315,4 @@ FetchedParticles fetch_particles(const ParticleValues& own, const IdDirectory& d
       return fetched;
     });
 }
-
-FetchedParticles fetch_particles(const OwnParticles& own, std::span<const std::int64_t> id1,
-  std::span<const std::int64_t> id2, Communicator& ranks)
-{
-  return do_together(ranks,
-    [&]
-    {
-      const IdDirectory directory(own.ids, own.ghosts, ranks);
-      return fetch_particles(own.values, directory, distinct_ids(id1, id2), ranks);
-    });
-}
 }

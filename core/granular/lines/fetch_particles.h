@@ -60,31 +60,18 @@ ParticleValues view_particles(const FrameView& frame, std::span<const std::strin
 /// Gives arrays of size 0 the size that they have on other ranks, or 1. Throws Error if ranks disagree. Collective.
 void share_sizes(ParticleValues& particles, std::int64_t rows, Communicator& ranks);
 
-/// The particles that a rank owns.
-struct OwnParticles
-{
-  std::span<const std::int64_t> ids; ///< one a row
-  const unsigned char* ghosts;       ///< a value a row, or null; see FrameView::duplicate_row
-  const ParticleValues& values;      ///< the same arrays on all ranks
-};
-
 /// Particles that one rank has requested from all ranks.
 struct FetchedParticles
 {
   std::vector<std::int64_t> ids; ///< each once
   ParticleValues values;         ///< as doubles
-  std::int64_t repeated =
-    0; ///< particles that this rank has seen whose id an earlier one has; see below
+  std::int64_t repeated = 0;     ///< particles that this rank has seen whose id an earlier one has
 };
 
 /// Fetches the particles with the wanted ids, each once in the list, from whichever rank owns them; ids that no rank owns are
-/// left out. The directory is that of the particles of all ranks, in the rows of their values. Collective.
+/// left out. The directory is that of the particles of all ranks, in the rows of their values: of particles with the same id,
+/// the first of the lowest rank counts. Collective.
 FetchedParticles fetch_particles(const ParticleValues& own, const IdDirectory& directory,
   const std::vector<std::int64_t>& wanted, Communicator& ranks);
-
-/// Fetches the particles that the two ends of this rank's lines name. Of particles with the same id, the first of the lowest
-/// rank counts. Collective.
-FetchedParticles fetch_particles(const OwnParticles& own, std::span<const std::int64_t> id1,
-  std::span<const std::int64_t> id2, Communicator& ranks);
 }
 #endif

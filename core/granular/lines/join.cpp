@@ -215,7 +215,8 @@ JoinedLines join_lines(const FrameView& particles, std::span<const std::int64_t>
       FetchedParticles fetched;
       if (!alone)
       {
-        fetched = fetch_particles({ ids.values(), particles.ghosts, values }, id1, id2, ranks);
+        const IdDirectory directory(ids.values(), particles.ghosts, ranks);
+        fetched = fetch_particles(values, directory, distinct_ids(id1, id2), ranks);
       }
       const IdFinder finder(alone ? ids.values() : fetched.ids, alone ? particles.ghosts : nullptr);
       const ParticleValues& ends = alone ? values : fetched.values;

@@ -123,8 +123,8 @@ private:
   Table read_rows(const std::optional<DataSection>& section,
     const std::vector<std::string>& columns, const Request& request)
   {
-    const SectionRows rows(file_, *source_, section.value_or(DataSection{}), columns);
-    return read_dump(rows.pieces(), request, ranks_, notices_, progress_);
+    return read_section(file_, *source_, section.value_or(DataSection{}), columns, request, ranks_,
+      notices_, progress_);
   }
 
   /// With the ids, which velocities and bonds need, whether they are wanted or not.

@@ -2,6 +2,7 @@
 #include "granular/formats/data_file/section_rows.h"
 
 #include "granular/common/words.h"
+#include "granular/formats/dump/read/dump_reader.h"
 #include "granular/lines/fetch_particles.h"
 #include "granular/lines/id_finder.h"
 #include "granular/numbers/number.h"
@@ -82,64 +83,81 @@ double value_without_row(std::string_view array, std::size_t component) noexcept
 {
   return array == "quat" && component == 0 ? 1 : array == "blockiness" ? 2 : 0;
 }
-}
 
-/// Returns true if the line up to a byte has begun a comment.
-bool Uncommented::is_comment(std::int64_t offset) const
+/// A byte source in which each comment, from # to the end of the line, is blank. The underlying source must outlive it.
+class Uncommented final : public ByteSource
 {
-  std::string before;
-  for (std::int64_t bytes = 256; offset > begin_; bytes *= 2)
+public:
+  /// begin: the start of a line; no byte before it is read.
+  Uncommented(const ByteSource& source, std::int64_t begin)
+    : source_(source)
+    , begin_(begin)
   {
-    const std::int64_t from = std::max(begin_, offset - bytes);
-    before.resize(static_cast<std::size_t>(offset - from));
-    before.resize(source_.read(from, before.data(), before.size()));
-    const std::size_t feed = before.rfind('\n');
-    if (feed != before.npos || from == begin_)
-    {
-      return before.find('#', feed == before.npos ? 0 : feed) != before.npos;
-    }
   }
-  return false;
+
+  const std::string& path() const override { return source_.path(); }
+  FileStamp stamp() const override { return source_.stamp(); }
+  double fraction(std::int64_t offset) const override { return source_.fraction(offset); }
+  bool compressed() const override { return source_.compressed(); }
+  bool concurrent() const override { return source_.concurrent(); }
+  std::string unchecked() const override { return source_.unchecked(); }
+
+  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
+  {
+    const bool begins_inside = this->is_comment(offset);
+    const std::size_t got = source_.read(offset, buffer, bytes);
+    char* const end = buffer + got;
+    for (char* at = begins_inside ? buffer : std::find(buffer, end, '#'); at != end;
+         at = std::find(at, end, '#'))
+    {
+      while (at != end && *at != '\n')
+      {
+        *at++ = ' ';
+      }
+    }
+    return got;
+  }
+
+private:
+  /// Returns true if the line up to a byte has begun a comment.
+  bool is_comment(std::int64_t offset) const
+  {
+    std::string before;
+    for (std::int64_t bytes = 256; offset > begin_; bytes *= 2)
+    {
+      const std::int64_t from = std::max(begin_, offset - bytes);
+      before.resize(static_cast<std::size_t>(offset - from));
+      before.resize(source_.read(from, before.data(), before.size()));
+      const std::size_t feed = before.rfind('\n');
+      if (feed != before.npos || from == begin_)
+      {
+        return before.find('#', feed == before.npos ? 0 : feed) != before.npos;
+      }
+    }
+    return false;
+  }
+
+  const ByteSource& source_;
+  std::int64_t begin_;
+};
 }
 
-std::size_t Uncommented::read(std::int64_t offset, char* buffer, std::size_t bytes) const
-{
-  const bool begins_inside = this->is_comment(offset);
-  const std::size_t got = source_.read(offset, buffer, bytes);
-  char* const end = buffer + got;
-  for (char* at = begins_inside ? buffer : std::find(buffer, end, '#'); at != end;
-       at = std::find(at, end, '#'))
-  {
-    while (at != end && *at != '\n')
-    {
-      *at++ = ' ';
-    }
-  }
-  return got;
-}
-
-SectionRows::SectionRows(const FramePiece& file, const ByteSource& source,
-  const DataSection& section, const std::vector<std::string>& columns)
-  : file_(file.file)
-  , source_(source)
-  , uncommented_(source, section.offset)
-  , has_comments_(section.has_comments)
-  , entry_(file.entry)
+Table read_section(const FramePiece& file, const ByteSource& source, const DataSection& section,
+  const std::vector<std::string>& columns, const Request& request, Communicator& ranks,
+  Notices& notices, Progress& progress)
 {
   FrameKind kind;
   kind.schema = ColumnSchema(columns);
   kind.layout = FrameKind::bare;
-  entry_.kind = std::make_shared<const FrameKind>(std::move(kind));
-  entry_.rows = section.rows;
-  entry_.offset = section.offset;
-  entry_.line = section.line;
-  entry_.end = section.end;
-}
-
-std::vector<FramePiece> SectionRows::pieces() const
-{
-  const ByteSource& uncommented = uncommented_;
-  return { { file_, entry_, has_comments_ ? &uncommented : &source_ } };
+  FrameEntry entry = file.entry;
+  entry.kind = std::make_shared<const FrameKind>(std::move(kind));
+  entry.rows = section.rows;
+  entry.offset = section.offset;
+  entry.line = section.line;
+  entry.end = section.end;
+  const Uncommented uncommented(source, section.offset);
+  const ByteSource* const rows = section.has_comments ? &uncommented : &source;
+  return read_dump({ { file.file, entry, rows } }, request, ranks, notices, progress);
 }
 
 std::int64_t join_section(Table& particles, const Table& table, const ColumnSchema& schema,
@@ -152,7 +170,8 @@ std::int64_t join_section(Table& particles, const Table& table, const ColumnSche
   FetchedParticles fetched;
   if (!alone)
   {
-    fetched = fetch_particles({ ids_of(table), nullptr, own }, wanted, wanted, ranks);
+    const IdDirectory directory(ids_of(table), nullptr, ranks);
+    fetched = fetch_particles(own, directory, distinct_ids(wanted, wanted), ranks);
   }
   const ParticleValues& values = alone ? own : fetched.values;
   const IdFinder finder(alone ? ids_of(table) : IdSpan(fetched.ids));

@@ -6,6 +6,7 @@
 #include "granular/formats/data_file/data_layout.h"
 #include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
+#include "granular/particles/request.h"
 #include "granular/particles/table.h"
 
 #include <cstddef>
@@ -17,50 +18,11 @@
 
 namespace granular
 {
-/// A byte source in which each comment, from # to the end of the line, is blank. The underlying source must outlive it.
-class Uncommented final : public ByteSource
-{
-public:
-  /// begin: the start of a line; no byte before it is read.
-  Uncommented(const ByteSource& source, std::int64_t begin)
-    : source_(source)
-    , begin_(begin)
-  {
-  }
-
-  const std::string& path() const override { return source_.path(); }
-  FileStamp stamp() const override { return source_.stamp(); }
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override;
-  double fraction(std::int64_t offset) const override { return source_.fraction(offset); }
-  bool compressed() const override { return source_.compressed(); }
-  bool concurrent() const override { return source_.concurrent(); }
-  std::string unchecked() const override { return source_.unchecked(); }
-
-private:
-  bool is_comment(std::int64_t offset) const;
-
-  const ByteSource& source_;
-  std::int64_t begin_;
-};
-
-/// Presents the rows of a section of a data file as the rows of a frame without a header, for read_dump. The file and
-/// the source must outlive this object.
-class SectionRows
-{
-public:
-  SectionRows(const FramePiece& file, const ByteSource& source, const DataSection& section,
-    const std::vector<std::string>& columns);
-
-  /// Returns one piece, which points into this object.
-  std::vector<FramePiece> pieces() const;
-
-private:
-  const FileIndex& file_;
-  const ByteSource& source_;
-  Uncommented uncommented_;
-  bool has_comments_;
-  FrameEntry entry_;
-};
+/// Decodes the rows of a section of a data file as read_dump does those of a frame without a header; comments, from # to the end
+/// of the line, are blank. source: of the file. Collective. Throws the errors of read_dump.
+Table read_section(const FramePiece& file, const ByteSource& source, const DataSection& section,
+  const std::vector<std::string>& columns, const Request& request, Communicator& ranks,
+  Notices& notices, Progress& progress);
 
 /// A section whose rows belong to particles by their ids.
 struct ParticleSection
