@@ -154,14 +154,21 @@ bool SphereCells::cut_once(
   return true;
 }
 
-/// Adds the parts of a sphere that no more than one face an axis cuts; otherwise it is not done.
-bool SphereCells::add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre,
-  double radius, const CellRange& within, std::vector<CellShare>& shares) const
+/// Adds the parts of a sphere that no more than one face an axis cuts: the common cases, in which few comparisons tell what faces
+/// there are. Otherwise it is not done.
+bool SphereCells::add_quickly(const Twofold3& centre, double radius, const CellRange& within,
+  std::vector<CellShare>& shares) const
 {
   std::array<Cut, 3> cuts;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (!this->cut_once(axis, near[axis], centre[axis], radius, cuts[axis]))
+    const std::int64_t near = this->cell_of(axis, centre[axis].hi);
+    const double* face = faces_[axis].data() + near;
+    if (difference(face[0], centre[axis]) >= radius || difference(face[1], centre[axis]) <= -radius)
+    {
+      return true;
+    }
+    if (!this->cut_once(axis, near, centre[axis], radius, cuts[axis]))
     {
       return false;
     }
@@ -206,25 +213,6 @@ void SphereCells::add_cells(const Twofold3& centre, double radius, const CellRan
       }
     }
   }
-}
-
-/// The common cases, in which few comparisons tell what faces there are; otherwise it is not done.
-bool SphereCells::add_quickly(const Twofold3& centre, double radius, const CellRange& within,
-  std::vector<CellShare>& shares) const
-{
-  std::array<std::int64_t, 3> near = {}; // the cell of the centre, or the nearest one
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    near[axis] = this->cell_of(axis, centre[axis].hi);
-    const double* face = faces_[axis].data() + near[axis];
-    const double lo = difference(face[0], centre[axis]);
-    const double hi = difference(face[1], centre[axis]);
-    if (lo >= radius || hi <= -radius)
-    {
-      return true;
-    }
-  }
-  return this->add_parts(near, centre, radius, within, shares);
 }
 
 void SphereCells::find(const Twofold3& centre, double radius, const CellRange& within,

@@ -43,8 +43,6 @@ private:
     std::vector<CellShare>& shares) const;
   bool cut_once(
     std::size_t axis, std::int64_t cell, Twofold centre, double radius, Cut& cut) const noexcept;
-  bool add_parts(const std::array<std::int64_t, 3>& near, const Twofold3& centre, double radius,
-    const CellRange& within, std::vector<CellShare>& shares) const;
   void add_cells(const Twofold3& centre, double radius, const CellRange& within,
     std::vector<CellShare>& shares) const;
 
