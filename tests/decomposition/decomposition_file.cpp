@@ -88,7 +88,7 @@ TEST(DecompositionFile, XmlIsAFrameOfItsOwn)
   for (const std::string name : { "inl.vtu", "inl_appended.vtu" })
   {
     const std::string text = data_file("good/decomposition/" + name);
-    EXPECT_TRUE(granular::look_at(text.substr(0, 200)).unstructured);
+    EXPECT_TRUE(granular::is_vtu(text.substr(0, 200)));
     GridFile file(text);
     ASSERT_EQ(file.frames(), 1u);
     EXPECT_EQ(file.entry().rows, 3);
@@ -103,11 +103,10 @@ TEST(DecompositionFile, XmlIsAFrameOfItsOwn)
     EXPECT_EQ(cut.frames(), 1u);
     EXPECT_EQ(cut.index().resume_offset, static_cast<std::int64_t>(text.size() + 2));
   }
-  EXPECT_FALSE(
-    granular::look_at("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n").unstructured);
-  EXPECT_FALSE(granular::look_at("<html><VTKFile type=\"UnstructuredGrid\">").unstructured);
-  EXPECT_FALSE(granular::look_at(liggghts_header).unstructured);
-  EXPECT_FALSE(granular::look_at("").unstructured);
+  EXPECT_FALSE(granular::is_vtu("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n"));
+  EXPECT_FALSE(granular::is_vtu("<html><VTKFile type=\"UnstructuredGrid\">"));
+  EXPECT_FALSE(granular::is_vtu(liggghts_header));
+  EXPECT_FALSE(granular::is_vtu(""));
 }
 
 TEST(DecompositionFile, SeveralGridsInOne)

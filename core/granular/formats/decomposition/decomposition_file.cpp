@@ -50,7 +50,9 @@ void index_vtu(const ByteSource& source, FileIndex& index)
     return;
   }
   add_whole(index,
-    { .rows = look_at(text).cells, .end = static_cast<std::int64_t>(text.size()), .line = 1 },
+    { .rows = VtuGrids(text, source.path()).cells(),
+      .end = static_cast<std::int64_t>(text.size()),
+      .line = 1 },
     nullptr);
 }
 
@@ -118,13 +120,13 @@ bool add_grid(LegacyVtk& file, FileIndex& index, std::int64_t& untold)
   {
     const DecompositionGrid grid = read_grid(file, false);
     add(grid, file.place(), index);
-    if (!grid.rectilinear && file.at_header())
+    if (!grid.rectilinear() && file.at_header())
     {
       index.notices.push_back({ file.where(file.place()),
         "expected the end of the file behind an unstructured grid, got another header; what "
         "follows is left out" });
     }
-    return grid.rectilinear;
+    return grid.rectilinear();
   }
   catch (const FormatError& error)
   {
@@ -158,7 +160,7 @@ void index_legacy(const ByteSource& source, FileIndex& index, Progress& progress
 void index_decomposition(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead&)
 {
-  if (look_at(read_up_to(source, vtu_head_bytes)).unstructured)
+  if (is_vtu(read_up_to(source, vtu_head_bytes)))
   {
     index_vtu(source, index);
   }
@@ -206,7 +208,7 @@ bool is_legacy(const ByteSource& source)
   const VtkPlace start = file.place();
   const VtkHeader header = file.read_header();
   const bool has_title = header.title == liggghts_title;
-  const bool rectilinear = header.dataset == "RECTILINEAR_GRID";
+  const bool rectilinear = header.dataset == vtk_rectilinear;
   if (header.dataset.empty() || (rectilinear && !has_title))
   {
     return has_title;
@@ -228,20 +230,20 @@ bool is_legacy(const ByteSource& source)
   }
 }
 
-/// head: what the first bytes say. Most files of others are told by that.
-bool is_decomposition_vtu(const ByteSource& source, const VtuHead& head)
+/// head: the first bytes, which tell most files of others.
+bool is_decomposition_vtu(const ByteSource& source, std::string_view head)
 {
-  if (!head.fits || !head.has_particles)
+  if (!VtuGrids(head, {}).may_be_subdomains())
   {
     return false;
   }
   const std::string text = read_all(source);
-  const VtuHead all = look_at(text);
-  return all.fits && all.has_ranks &&
+  const VtuGrids grids(text, {});
+  return grids.may_be_subdomains() && grids.has_ranks() &&
     has_boxes(
       [&]
       {
-        const VtuGrids grids(text, {});
+        grids.check();
         return grids.size() > 0 ? grids.read(0) : DecompositionGrid();
       });
 }
@@ -260,8 +262,8 @@ bool is_decomposition_file(const std::string& path) noexcept
   return looks_so(path,
     [](const ByteSource& source)
     {
-      const VtuHead head = look_at(read_up_to(source, vtu_head_bytes));
-      return head.unstructured ? is_decomposition_vtu(source, head) : is_legacy(source);
+      const std::string head = read_up_to(source, vtu_head_bytes);
+      return is_vtu(head) ? is_decomposition_vtu(source, head) : is_legacy(source);
     });
 }
 }

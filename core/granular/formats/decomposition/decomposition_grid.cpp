@@ -20,66 +20,16 @@ constexpr ProcessArray all_process_arrays[] = {
     std::numeric_limits<int>::max(), true },
 };
 
-/// Reads one dataset, section by section.
-class GridReader
+class GridReader : public VtkGridReader
 {
 public:
-  GridReader(LegacyVtk& file, bool keep)
-    : file_(file)
-    , keep_(keep)
-    , sections_(file, grid_, keep, keep)
+  GridReader(LegacyVtk& file, DecompositionGrid& grid, bool keep)
+    : VtkGridReader(file, grid, keep, keep)
+    , grid_(grid)
   {
-  }
-
-  DecompositionGrid read()
-  {
-    this->read_header();
-    while (file_.next())
-    {
-      if (file_.is("CELL_DATA") || file_.is("POINT_DATA"))
-      {
-        this->read_data(file_.is("CELL_DATA"));
-        continue;
-      }
-      if (!grid_.rectilinear && (file_.is("POINTS") || file_.is("CELLS")))
-      {
-        this->limit(file_.count(1) / (file_.is("POINTS") ? points_a_cell : 1));
-      }
-      if (!sections_.read() &&
-        !file_.take_arrays(tuples_, [this](const VtkArray& array) { return this->take(array); }))
-      {
-        file_.fail("a section of the grid", file_.words().front());
-      }
-    }
-    this->end_sections(true);
-    return std::move(grid_);
   }
 
 private:
-  void read_header()
-  {
-    grid_.header = file_.read_header();
-    const std::string& dataset = grid_.header.dataset;
-    const std::string expected = "DATASET RECTILINEAR_GRID or UNSTRUCTURED_GRID";
-    if (dataset.empty())
-    {
-      file_.fail_missing(
-        expected, ": LIGGGHTS writes a header without a grid where a timestep is dumped again");
-    }
-    grid_.rectilinear = dataset == vtk_rectilinear;
-    if (!grid_.rectilinear && dataset != vtk_unstructured)
-    {
-      file_.fail(expected, dataset);
-    }
-  }
-
-  /// All sections must have been there.
-  void end_sections(bool at_end)
-  {
-    sections_.end(at_end);
-    this->limit(grid_.rectilinear ? grid_.cells : 0);
-  }
-
   void limit(std::int64_t cells) const
   {
     if (cells > most_processes)
@@ -90,25 +40,28 @@ private:
     }
   }
 
-  void read_data(bool of_cells)
+  void begin_section() override
   {
-    this->end_sections(false);
-    of_cells_ = of_cells;
-    tuples_ = file_.count(1);
-    grid_.has_data = true;
-    if (of_cells && tuples_ != grid_.cells)
+    if (!grid_.rectilinear() && (file_.is("POINTS") || file_.is("CELLS")))
     {
-      file_.fail("data of " + std::to_string(grid_.cells) + " cells", file_.words()[1]);
+      this->limit(file_.count(1) / (file_.is("POINTS") ? points_a_cell : 1));
     }
-    file_.need(of_cells ? "arrays of CELL_DATA" : "arrays of POINT_DATA");
-    if (!file_.take_arrays(tuples_, [this](const VtkArray& array) { return this->take(array); }))
+  }
+
+  void end_grid() override { this->limit(grid_.rectilinear() ? grid_.cells : 0); }
+
+  void begin_data() override
+  {
+    grid_.has_data = true;
+    file_.need(of_cells_ ? "arrays of CELL_DATA" : "arrays of POINT_DATA");
+    if (!this->take_arrays())
     {
       file_.fail("an array", file_.words().front());
     }
   }
 
   /// Reads the arrays that tell what is known of a process.
-  bool take(const VtkArray& array)
+  bool take(const VtkArray& array) override
   {
     const auto* const known =
       std::ranges::find(all_process_arrays, array.name, &ProcessArray::name);
@@ -132,18 +85,13 @@ private:
     return true;
   }
 
-  LegacyVtk& file_;
-  bool keep_;
-  DecompositionGrid grid_;
-  VtkGridReader sections_;
-  bool of_cells_ = false;
-  std::int64_t tuples_ = 0; ///< of the arrays at hand
+  DecompositionGrid& grid_;
 };
 }
 
 bool DecompositionGrid::is_piece() const noexcept
 {
-  return rectilinear && cells_between(dimensions) > cells;
+  return this->rectilinear() && cells_between(dimensions) > cells;
 }
 
 void ProcessArray::check(const std::vector<std::int64_t>& values, const WhereOf& where_of) const
@@ -171,6 +119,11 @@ CornerOrder bounds_of(
 
 DecompositionGrid read_grid(LegacyVtk& file, bool keep)
 {
-  return GridReader(file, keep).read();
+  constexpr std::string_view kinds[] = { vtk_rectilinear, vtk_unstructured };
+  DecompositionGrid grid;
+  GridReader(file, grid, keep)
+    .read(kinds, "the grid",
+      ": LIGGGHTS writes a header without a grid where a timestep is dumped again");
+  return grid;
 }
 }

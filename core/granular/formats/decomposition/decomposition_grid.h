@@ -20,12 +20,13 @@ inline constexpr std::int64_t most_processes = std::int64_t{ 1 } << 24;
 /// A dataset of a decomposition file, as it stands in the file.
 struct DecompositionGrid : VtkGrid
 {
-  bool rectilinear = false;
   bool has_data = false; ///< of points or cells
   bool has_particles = false;
   bool has_ranks = false;
   std::vector<std::int64_t> particles;
   std::vector<std::int64_t> ranks;
+
+  bool rectilinear() const noexcept { return header.dataset == vtk_rectilinear; }
 
   /// Returns true if DIMENSIONS announce more cells than the dataset has, as in the per-rank files of PFM.
   bool is_piece() const noexcept;

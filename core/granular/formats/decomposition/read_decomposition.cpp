@@ -55,7 +55,7 @@ Decomposition subdomains_of(
   Decomposition decomposition = { {}, grid.has_particles, grid.has_ranks };
   std::vector<Subdomain>& subdomains = decomposition.subdomains;
   subdomains.reserve(static_cast<std::size_t>(grid.cells));
-  if (grid.rectilinear)
+  if (grid.rectilinear())
   {
     add_boxes(grid, subdomains);
   }
@@ -87,6 +87,7 @@ Decomposition read_vtu(
 {
   const std::string text = read_up_to(source, entry.end);
   const VtuGrids grids(text, source.path());
+  grids.check();
   check_cells(entry, grids.cells(), { source.path(), entry.line });
   if (grids.size() == 0)
   {
@@ -107,7 +108,7 @@ Decomposition read_decomposition(
   const ByteSource& source, const FrameEntry& entry, Notices& notices, Progress& progress)
 {
   const bool xml = entry.offset == 0 &&
-    look_at(read_up_to(source, std::min(entry.end, std::int64_t{ vtu_head_bytes }))).unstructured;
+    is_vtu(read_up_to(source, std::min(entry.end, std::int64_t{ vtu_head_bytes })));
   const Where where = { source.path(), entry.line, entry.line > 0 ? -1 : entry.offset };
   std::int64_t reflected = 0;
   Decomposition decomposition = (xml ? read_vtu : read_legacy)(source, entry, reflected, progress);

@@ -2,10 +2,8 @@
 #include "granular/formats/decomposition/vtu_grids.h"
 
 #include "granular/common/words.h"
-#include "granular/numbers/number.h"
 
 #include <iterator>
-#include <limits>
 
 namespace granular
 {
@@ -20,7 +18,10 @@ enum Kind : std::size_t
   Connectivity,
   Offsets,
   Types,
-  OfProcesses
+  Particles,
+  Ranks,
+  OtherRanks,
+  OfProcesses = Particles
 };
 
 struct Known
@@ -35,86 +36,69 @@ constexpr Known known[] = { { "Points", "" }, { "Cells", "connectivity" }, { "Ce
 
 const std::string piece_element = "/VTKFile/UnstructuredGrid/Piece";
 
-/// An attribute that is a number; 0 where it is none.
-std::int64_t count(const XmlTags& tags, std::string_view attribute) noexcept
+bool is_grid_file(const VtkXml& file)
 {
-  const std::string_view text = tags.attribute(attribute);
-  std::int64_t number = 0;
-  return parse_int64(text.data(), text.data() + text.size(), number) && number > 0 ? number : 0;
-}
-
-bool begins_with_tag(std::string_view text) noexcept
-{
-  text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-  return take_word(text).starts_with('<');
-}
-
-void look_at_piece(const XmlTags& tags, VtuHead& head) noexcept
-{
-  const std::int64_t cells = count(tags, "NumberOfCells");
-  const std::int64_t points = count(tags, "NumberOfPoints");
-  const std::int64_t left = std::numeric_limits<std::int64_t>::max() - head.cells;
-  head.cells += cells <= left ? cells : 0;
-  head.fits = head.fits && (points > 0) == (cells > 0) && points / points_a_cell <= cells &&
-    (points / points_a_cell < cells || points % points_a_cell == 0);
-}
-
-void look_at_array(const XmlTags& tags, VtuHead& head) noexcept
-{
-  const std::string_view name = tags.attribute("Name");
-  head.has_particles = head.has_particles || name == "nlocal";
-  head.has_ranks = head.has_ranks || name == "proc" || name == "procID";
-}
-
-void look_at_tags(std::string_view text, VtuHead& head)
-{
-  XmlTags tags(text, {});
-  if (!begins_with_tag(text) || !tags.next() || tags.element() != "/VTKFile" ||
-    tags.attribute("type") != "UnstructuredGrid")
-  {
-    return;
-  }
-  head.unstructured = true;
-  while (tags.next() && tags.element() != "/VTKFile/AppendedData")
-  {
-    if (tags.element() == piece_element)
-    {
-      look_at_piece(tags, head);
-    }
-    else if (tags.element() == piece_element + "/CellData/DataArray")
-    {
-      look_at_array(tags, head);
-    }
-  }
+  return file.element() == "/VTKFile" && file.attribute("type") == "UnstructuredGrid";
 }
 }
 
-VtuHead look_at(std::string_view text)
+bool is_vtu(std::string_view text)
 {
-  VtuHead head;
+  std::string_view rest = text;
+  rest.remove_prefix(rest.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  VtkXml file(text, {});
   try
   {
-    look_at_tags(text, head);
+    return take_word(rest).starts_with('<') && file.next() && is_grid_file(file);
   }
   catch (const Error&)
   {
-    return head; // what was found before the end of the text, or what is wrong there
+    return is_grid_file(file); // which a reader may not know how to read
   }
-  return head;
 }
 
 VtuGrids::VtuGrids(std::string_view text, const std::string& path)
   : file_(text, path)
 {
   static_assert(std::size(known) == array_kinds);
+  try
+  {
+    this->find_grids();
+  }
+  catch (const Error&)
+  {
+    error_ = std::current_exception();
+  }
+}
+
+void VtuGrids::check() const
+{
+  if (error_)
+  {
+    std::rethrow_exception(error_);
+  }
+}
+
+bool VtuGrids::may_be_subdomains() const noexcept
+{
+  return fits_ && seen_[Particles];
+}
+
+bool VtuGrids::has_ranks() const noexcept
+{
+  return seen_[Ranks] || seen_[OtherRanks];
+}
+
+void VtuGrids::find_grids()
+{
   while (file_.next())
   {
-    const std::string& element = file_.tags().element();
+    const std::string& element = file_.element();
     if (element == piece_element)
     {
       this->add_piece();
     }
-    else if (keep_ && element.starts_with(piece_element))
+    else if (element.starts_with(piece_element))
     {
       this->add_array();
     }
@@ -126,15 +110,17 @@ void VtuGrids::add_piece()
   Piece piece;
   piece.points = file_.count("NumberOfPoints");
   piece.cells = file_.count("NumberOfCells");
-  piece.begin = file_.tags().begin();
+  piece.begin = file_.begin();
   if (piece.cells > most_processes - cells_ || piece.points / points_a_cell > most_processes)
   {
     throw LimitError("expected at most " + std::to_string(most_processes) +
         " cells, with eight points each, got " + std::to_string(piece.cells) + " with " +
         std::to_string(piece.points),
-      file_.tags().where(piece.begin));
+      file_.where(piece.begin));
   }
   cells_ += piece.cells;
+  fits_ =
+    fits_ && (piece.points > 0) == (piece.cells > 0) && piece.points <= points_a_cell * piece.cells;
   keep_ = piece.cells > 0;
   if (keep_)
   {
@@ -144,24 +130,26 @@ void VtuGrids::add_piece()
 
 void VtuGrids::add_array()
 {
-  const XmlTags& tags = file_.tags();
-  const std::string_view inside = std::string_view(tags.element()).substr(piece_element.size() + 1);
+  const std::string_view inside =
+    std::string_view(file_.element()).substr(piece_element.size() + 1);
   for (std::size_t kind = 0; kind < array_kinds; ++kind)
   {
     const bool same = inside.starts_with(known[kind].element) &&
       inside.substr(known[kind].element.size()) == "/DataArray" &&
-      (known[kind].name.empty() || known[kind].name == tags.attribute("Name"));
-    std::optional<VtkXmlArray>& array = pieces_.back().arrays[kind];
-    if (same && array)
+      (known[kind].name.empty() || known[kind].name == file_.attribute("Name"));
+    seen_[kind] = seen_[kind] || same;
+    if (!same || !keep_)
     {
-      tags.fail("one array " + std::string(known[kind].element) + " " +
+      continue;
+    }
+    std::optional<VtkXmlArray>& array = pieces_.back().arrays[kind];
+    if (array)
+    {
+      file_.fail("one array " + std::string(known[kind].element) + " " +
           std::string(known[kind].name) + " in a piece",
         "another");
     }
-    if (same)
-    {
-      array = file_.array();
-    }
+    array = file_.array();
   }
 }
 
@@ -171,7 +159,7 @@ const VtkXmlArray& VtuGrids::need(const Piece& piece, std::size_t kind) const
   {
     throw FormatError("expected an array " + std::string(known[kind].element) + " " +
         std::string(known[kind].name) + " in a piece with cells, got none",
-      file_.tags().where(piece.begin));
+      file_.where(piece.begin));
   }
   return *piece.arrays[kind];
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,28 +19,27 @@ namespace granular
 /// The bytes of a .vtu file that are looked at: the names of its arrays, mostly not their values.
 inline constexpr std::size_t vtu_head_bytes = std::size_t{ 1 } << 16;
 
-/// The tags at the beginning of a file.
-struct VtuHead
-{
-  bool unstructured = false;  ///< it is a .vtu file
-  std::int64_t cells = 0;     ///< the sum of NumberOfCells of the pieces
-  bool fits = true;           ///< all pieces have points, at most eight a cell
-  bool has_particles = false; ///< there is an array nlocal of cells
-  bool has_ranks = false;     ///< there is an array proc or procID of cells
-};
-
-/// Reads the tags as long as the text goes and they are right.
-VtuHead look_at(std::string_view text);
+/// Returns true if a text begins as a .vtu file does.
+bool is_vtu(std::string_view text);
 
 /// The unstructured grids (pieces) in a .vtu file. Grids without cells are left out.
 class VtuGrids
 {
 public:
-  /// Finds the grids in a text, which must outlive this object. path is used in errors. Throws Error.
+  /// Finds the grids in a text, which must outlive this object, as far as the text goes and is right. path is used in errors.
   VtuGrids(std::string_view text, const std::string& path);
+
+  /// Throws the Error that ended the search for grids, if any.
+  void check() const;
 
   std::size_t size() const noexcept { return pieces_.size(); }
   std::int64_t cells() const noexcept { return cells_; } ///< of all
+
+  /// Returns true if all pieces have points, at most eight a cell, and there is an array nlocal of cells.
+  bool may_be_subdomains() const noexcept;
+
+  /// Returns true if there is an array proc or procID of cells.
+  bool has_ranks() const noexcept;
 
   /// Returns a grid. Throws Error.
   DecompositionGrid read(std::size_t grid) const;
@@ -58,6 +58,7 @@ private:
     std::array<std::optional<VtkXmlArray>, array_kinds> arrays;
   };
 
+  void find_grids();
   void add_piece();
   void add_array();
   const VtkXmlArray& need(const Piece& piece, std::size_t kind) const;
@@ -69,6 +70,9 @@ private:
   std::vector<Piece> pieces_;
   std::int64_t cells_ = 0;
   bool keep_ = false; ///< arrays of the piece at hand: it has cells
+  bool fits_ = true;
+  std::array<bool, array_kinds> seen_ = {}; ///< in any piece
+  std::exception_ptr error_;
 };
 }
 #endif

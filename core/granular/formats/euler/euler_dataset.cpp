@@ -24,28 +24,22 @@ bool is_telling(std::string_view name)
   return std::ranges::find(telling, name) != std::end(telling);
 }
 
-/// Reads one dataset, section by section.
-class DatasetReader
+class DatasetReader : public VtkGridReader
 {
 public:
   DatasetReader(LegacyVtk& file, EulerRead what,
     const std::function<bool(std::string_view)>& wanted, EulerDataset& dataset)
-    : file_(file)
+    : VtkGridReader(file, dataset, what == EulerRead::Values, what != EulerRead::Names)
     , what_(what)
     , wanted_(wanted)
     , dataset_(dataset)
-    , sections_(file, dataset, what == EulerRead::Values, what != EulerRead::Names)
   {
   }
 
   void read()
   {
-    this->read_header();
-    while (!(what_ == EulerRead::Look && dataset_.is_euler()) && file_.next())
-    {
-      this->read_section();
-    }
-    this->end_sections(true);
+    constexpr std::string_view kinds[] = { vtk_points, vtk_rectilinear, vtk_unstructured };
+    this->VtkGridReader::read(kinds, "Euler cells");
     this->check_arrays();
     if (what_ == EulerRead::Values)
     {
@@ -54,42 +48,10 @@ public:
   }
 
 private:
-  void read_header()
-  {
-    dataset_.header = file_.read_header();
-    const std::string& kind = dataset_.header.dataset;
-    const std::string expected = "DATASET POLYDATA, RECTILINEAR_GRID or UNSTRUCTURED_GRID";
-    if (kind.empty())
-    {
-      file_.fail_missing(expected);
-    }
-    if (kind != vtk_points && kind != vtk_rectilinear && kind != vtk_unstructured)
-    {
-      file_.fail(expected, kind);
-    }
-  }
+  bool is_enough() const override { return what_ == EulerRead::Look && dataset_.is_euler(); }
 
-  void read_section()
+  void end_grid() override
   {
-    if (file_.is("CELL_DATA") || file_.is("POINT_DATA"))
-    {
-      this->begin_data(file_.is("CELL_DATA"));
-    }
-    else if (!sections_.read())
-    {
-      const bool is_table = file_.is("LOOKUP_TABLE"); // of colours
-      const auto take = [this](const VtkArray& array) { return this->take(array); };
-      if (!file_.take_arrays(tuples_, is_table ? LegacyVtk::TakeArray() : take))
-      {
-        file_.fail("a section of Euler cells", file_.words().front());
-      }
-    }
-  }
-
-  /// All sections must have been there, and agree.
-  void end_sections(bool at_end)
-  {
-    sections_.end(at_end);
     const auto& [counts, dimensions] = std::pair(dataset_.counts, dataset_.dimensions);
     if (counts != dimensions)
     {
@@ -103,21 +65,8 @@ private:
     }
   }
 
-  void begin_data(bool of_cells)
-  {
-    this->end_sections(false);
-    const bool by_points = dataset_.header.dataset == vtk_points;
-    tuples_ = file_.count(1);
-    is_data_ = of_cells != by_points;
-    if (is_data_ && tuples_ != dataset_.cells)
-    {
-      file_.fail("data of " + std::to_string(dataset_.cells) + (by_points ? " points" : " cells"),
-        file_.words()[1]);
-    }
-  }
-
   /// Reads an array that is wanted.
-  bool take(const VtkArray& array)
+  bool take(const VtkArray& array) override
   {
     if (!is_data_)
     {
@@ -215,13 +164,9 @@ private:
     }
   }
 
-  LegacyVtk& file_;
   EulerRead what_;
   const std::function<bool(std::string_view)>& wanted_;
   EulerDataset& dataset_;
-  VtkGridReader sections_;
-  bool is_data_ = false;    ///< arrays are of the cells
-  std::int64_t tuples_ = 0; ///< of the arrays at hand
 };
 }
 

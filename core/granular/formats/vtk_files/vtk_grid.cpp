@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/vtk_files/vtk_grid.h"
 
+#include "granular/common/words.h"
+
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -24,7 +26,62 @@ const VtkGridReader::Section VtkGridReader::sections[] = {
   { vtk_unstructured, "CELL_TYPES", &VtkGridReader::read_types },
 };
 
-bool VtkGridReader::read()
+void VtkGridReader::read(
+  std::span<const std::string_view> kinds, const std::string& whose, const std::string& cause)
+{
+  grid_.header = file_.read_header();
+  const std::string& kind = grid_.header.dataset;
+  const std::string expected = "DATASET " + join_words(kinds.first(kinds.size() - 1), ", ") +
+    " or " + std::string(kinds.back());
+  if (kind.empty())
+  {
+    file_.fail_missing(expected, cause);
+  }
+  if (std::ranges::find(kinds, kind) == kinds.end())
+  {
+    file_.fail(expected, kind);
+  }
+  while (!this->is_enough() && file_.next())
+  {
+    const bool of_cells = file_.is("CELL_DATA");
+    if (of_cells || file_.is("POINT_DATA"))
+    {
+      this->read_data(of_cells);
+      continue;
+    }
+    this->begin_section();
+    if (!this->read_section() && !this->take_arrays())
+    {
+      file_.fail("a section of " + whose, file_.words().front());
+    }
+  }
+  this->end_sections(true);
+}
+
+void VtkGridReader::read_data(bool of_cells)
+{
+  this->end_sections(false);
+  of_cells_ = of_cells;
+  const bool by_points = grid_.header.dataset == vtk_points;
+  tuples_ = file_.count(1);
+  is_data_ = of_cells_ != by_points;
+  if (is_data_ && tuples_ != grid_.cells)
+  {
+    file_.fail("data of " + std::to_string(grid_.cells) + (by_points ? " points" : " cells"),
+      file_.words()[1]);
+  }
+  this->begin_data();
+}
+
+bool VtkGridReader::take_arrays()
+{
+  const bool is_table = file_.is("LOOKUP_TABLE"); // of colours
+  const auto take = [this](const VtkArray& array) { return this->take(array); };
+  return file_.take_arrays(tuples_, is_table ? LegacyVtk::TakeArray() : take);
+}
+
+/// Reads a section of the grid. Returns false if the line begins none.
+bool VtkGridReader::read_section()
 {
   const auto* const section = std::ranges::find_if(sections,
     [this](const Section& each)
@@ -43,7 +100,8 @@ bool VtkGridReader::read()
   return true;
 }
 
-void VtkGridReader::end(bool at_end)
+/// Counts the cells. Sections may be missing at the end, or before the current line, which begins data.
+void VtkGridReader::end_sections(bool at_end)
 {
   for (std::size_t i = 0; i < std::size(sections); ++i)
   {
@@ -63,6 +121,7 @@ void VtkGridReader::end(bool at_end)
         std::to_string(types_),
       file_.where(types_place_));
   }
+  this->end_grid();
 }
 
 void VtkGridReader::read_points()
@@ -113,8 +172,27 @@ void VtkGridReader::read_coordinates()
 
 void VtkGridReader::read_cells()
 {
-  grid_.voxels = read_eight_point_cells(file_, keep_);
+  const std::int64_t first = file_.count(1);
+  const std::int64_t second = file_.count(2);
+  const bool counted = second % 9 == 0 && second / 9 == first;
+  const bool with_offsets = second % 8 == 0 && second / 8 == std::max(first, std::int64_t{ 1 }) - 1;
+  if (!counted && !with_offsets)
+  {
+    file_.fail(
+      "eight points in each cell", "CELLS " + std::to_string(first) + " " + std::to_string(second));
+  }
+  grid_.voxels = file_.cells(keep_);
   grid_.cells = grid_.voxels.size;
+  const std::vector<std::int64_t>& offsets = grid_.voxels.offsets;
+  for (std::size_t i = 1; i < offsets.size(); ++i)
+  {
+    const std::int64_t points = offsets[i] - offsets[i - 1];
+    if (points != points_a_cell)
+    {
+      throw FormatError("expected eight points in a cell, got " + std::to_string(points),
+        file_.where_of(grid_.voxels, static_cast<std::int64_t>(i) - 1));
+    }
+  }
 }
 
 void VtkGridReader::read_types()
@@ -126,35 +204,6 @@ void VtkGridReader::read_types()
   const VtkPlace first = file_.place();
   file_.take(array, check_, types);
   check_types(types, [&](std::int64_t cell) { return file_.where_of(first, array, cell); });
-}
-
-VtkCells read_eight_point_cells(LegacyVtk& file, bool keep)
-{
-  const std::int64_t first = file.count(1);
-  const std::int64_t second = file.count(2);
-  const bool counted = second % 9 == 0 && second / 9 == first;
-  const bool with_offsets = second % 8 == 0 && second / 8 == std::max(first, std::int64_t{ 1 }) - 1;
-  if (!counted && !with_offsets)
-  {
-    file.fail(
-      "eight points in each cell", "CELLS " + std::to_string(first) + " " + std::to_string(second));
-  }
-  VtkCells cells = file.cells(keep);
-  const std::vector<std::int64_t>& offsets = cells.offsets;
-  for (std::size_t i = 1; i < offsets.size(); ++i)
-  {
-    if (offsets[i] - offsets[i - 1] != points_a_cell)
-    {
-      fail_points_of_cell(
-        offsets[i] - offsets[i - 1], file.where_of(cells, static_cast<std::int64_t>(i) - 1));
-    }
-  }
-  return cells;
-}
-
-void fail_points_of_cell(std::int64_t points, const Where& where)
-{
-  throw FormatError("expected eight points in a cell, got " + std::to_string(points), where);
 }
 
 void check_types(const std::vector<std::int64_t>& types, const WhereOf& where_of)

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,13 +25,6 @@ inline constexpr int corners_of_voxel = 8;
 
 /// Returns the place of a value of a list, for messages.
 using WhereOf = std::function<Where(std::int64_t)>;
-
-/// Reads the cells that the current line of the file begins. keep: store their points. Throws FormatError if a cell
-/// does not have eight points.
-VtkCells read_eight_point_cells(LegacyVtk& file, bool keep);
-
-/// Throws FormatError: a cell has another number of points.
-[[noreturn]] void fail_points_of_cell(std::int64_t points, const Where& where);
 
 /// Throws UnsupportedError if a cell is neither a voxel nor a hexahedron.
 void check_types(const std::vector<std::int64_t>& types, const WhereOf& where_of);
@@ -56,26 +50,42 @@ struct VtkGrid
   VtkCells voxels; ///< of eight points each, all of them there
 };
 
-/// Reads the sections of a grid, each of which may occur once, from the lines of a file.
+/// Reads a dataset section by section: those of the grid, each of which may occur once, and the arrays of its points or cells.
+/// A derived class tells what a dataset of its format must have besides.
 class VtkGridReader
 {
 public:
-  /// keep: store the numbers. check: read the types of cells, which must be voxels or hexahedra. grid has the header.
+  virtual ~VtkGridReader() = default;
+
+  /// Reads from the header to the next one or to the end. kinds: of datasets that may be; whose: sections, for messages; cause:
+  /// see LegacyVtk::fail_missing. Throws FormatError for another dataset, a section that is unknown, missing or repeated, a cell
+  /// without eight points, and data of other numbers of points or cells; UnsupportedError for other types of cells.
+  void read(std::span<const std::string_view> kinds, const std::string& whose,
+    const std::string& cause = "");
+
+protected:
+  /// keep: store the numbers. check: read the types of cells, which must be voxels or hexahedra.
   VtkGridReader(LegacyVtk& file, VtkGrid& grid, bool keep, bool check) noexcept
     : file_(file)
-    , grid_(grid)
     , keep_(keep)
+    , grid_(grid)
     , check_(check)
   {
   }
 
-  /// Reads the section that the line begins. Returns false if the line begins no section of this dataset. Throws
-  /// FormatError for a repeated section; UnsupportedError for other types of cells.
-  bool read();
+  virtual bool is_enough() const { return false; } ///< no more has to be read
+  virtual void begin_section() {}                  ///< a line of any but data
+  virtual void end_grid() {}                       ///< all sections of the grid were there
+  virtual void begin_data() {}                     ///< behind CELL_DATA or POINT_DATA
+  virtual bool take(const VtkArray& array) = 0;    ///< see LegacyVtk::TakeArray
 
-  /// Counts the cells. Throws FormatError if a section is missing at the end, or before the current line, which begins the
-  /// data, or if there are not as many types as cells.
-  void end(bool at_end);
+  /// Takes the arrays that the line begins. Returns false if it begins none.
+  bool take_arrays();
+
+  LegacyVtk& file_;
+  bool keep_;
+  bool of_cells_ = false; ///< the data at hand
+  bool is_data_ = false;  ///< these are of the cells, or of the points where these stand for cells
 
 private:
   void read_points();
@@ -94,11 +104,14 @@ private:
   };
   static const Section sections[];
 
-  LegacyVtk& file_;
+  bool read_section();
+  void read_data(bool of_cells);
+  void end_sections(bool at_end);
+
   VtkGrid& grid_;
-  bool keep_;
   bool check_;
-  std::uint32_t seen_ = 0; ///< a bit each
+  std::int64_t tuples_ = 0; ///< of the arrays at hand
+  std::uint32_t seen_ = 0;  ///< a bit each
   std::int64_t types_ = 0;
   VtkPlace types_place_;
 };

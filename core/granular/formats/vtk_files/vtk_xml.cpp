@@ -37,28 +37,28 @@ constexpr Choice<ValueType> types[] = { { "Int8", ValueType::Int8 }, { "UInt8", 
 /// Returns the meaning of an attribute of the element; the first choice where it is optional and not there.
 template <class T, std::size_t N>
 T choose(
-  const XmlTags& tags, std::string_view attribute, bool optional, const Choice<T> (&choices)[N])
+  const VtkXml& file, std::string_view attribute, bool optional, const Choice<T> (&choices)[N])
 {
-  const std::string_view word = tags.attribute(attribute);
+  const std::string_view word = file.attribute(attribute);
   const auto* const found = std::find_if(std::begin(choices), std::end(choices),
     [&](const Choice<T>& choice) { return choice.word == word || (optional && word.empty()); });
   if (found == std::end(choices))
   {
-    tags.fail("the " + std::string(attribute) + " " + join_words(choices, " or ", &Choice<T>::word),
+    file.fail("the " + std::string(attribute) + " " + join_words(choices, " or ", &Choice<T>::word),
       quoted(word));
   }
   return found->value;
 }
 }
 
-XmlTags::XmlTags(std::string_view text, std::string path)
+VtkXml::VtkXml(std::string_view text, std::string path)
   : text_(text)
   , path_(std::move(path))
   , end_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0)
 {
 }
 
-bool XmlTags::next()
+bool VtkXml::next_tag()
 {
   if (ended_ && !element_.empty())
   {
@@ -99,7 +99,7 @@ bool XmlTags::next()
 }
 
 /// Goes behind the '<' of the next tag. False: there is none.
-bool XmlTags::find_tag()
+bool VtkXml::find_tag()
 {
   for (;;)
   {
@@ -122,7 +122,7 @@ bool XmlTags::find_tag()
 }
 
 /// Goes behind a mark.
-void XmlTags::pass(std::string_view mark)
+void VtkXml::pass(std::string_view mark)
 {
   const std::size_t found = text_.find(mark, begin_);
   if (found == std::string_view::npos)
@@ -132,7 +132,7 @@ void XmlTags::pass(std::string_view mark)
   end_ = found + mark.size();
 }
 
-void XmlTags::end_element(std::string_view name)
+void VtkXml::end_element(std::string_view name)
 {
   const std::size_t last = element_.rfind('/');
   if (last == std::string::npos || element_.compare(last + 1, std::string::npos, name) != 0)
@@ -144,7 +144,7 @@ void XmlTags::end_element(std::string_view name)
   element_.erase(last);
 }
 
-std::string_view XmlTags::take_name()
+std::string_view VtkXml::take_name()
 {
   const std::size_t first = end_;
   while (end_ < text_.size() && is_name(text_[end_]))
@@ -158,7 +158,7 @@ std::string_view XmlTags::take_name()
   return text_.substr(first, end_ - first);
 }
 
-void XmlTags::take_attributes()
+void VtkXml::take_attributes()
 {
   attributes_.clear();
   for (this->skip_blanks(); end_ < text_.size() && is_name(text_[end_]); this->skip_blanks())
@@ -180,7 +180,7 @@ void XmlTags::take_attributes()
   }
 }
 
-void XmlTags::skip_blanks() noexcept
+void VtkXml::skip_blanks() noexcept
 {
   while (end_ < text_.size() && is_blank(text_[end_]))
   {
@@ -188,54 +188,42 @@ void XmlTags::skip_blanks() noexcept
   }
 }
 
-bool XmlTags::take(char c) noexcept
+bool VtkXml::take(char c) noexcept
 {
   const bool is = end_ < text_.size() && text_[end_] == c;
   end_ += is ? 1 : 0;
   return is;
 }
 
-std::string_view XmlTags::attribute(std::string_view name) const noexcept
+std::string_view VtkXml::attribute(std::string_view name) const noexcept
 {
   const auto found = std::find_if(attributes_.begin(), attributes_.end(),
     [&](const auto& attribute) { return attribute.first == name; });
   return found == attributes_.end() ? std::string_view() : found->second;
 }
 
-std::string_view XmlTags::text() const noexcept
-{
-  return ended_ ? std::string_view() : text_.substr(end_, text_.find('<', end_) - end_);
-}
-
-Where XmlTags::where(std::size_t byte) const
+Where VtkXml::where(std::size_t byte) const
 {
   const std::string_view before = text_.substr(0, byte);
   return { path_, 1 + std::count(before.begin(), before.end(), '\n') };
 }
 
-void XmlTags::fail(const std::string& expected, const std::string& got) const
+void VtkXml::fail(const std::string& expected, const std::string& got) const
 {
   throw FormatError("expected " + expected + ", got " + got, this->where(begin_));
 }
 
-VtkXml::VtkXml(std::string_view text, std::string path)
-  : text_(text)
-  , path_(path)
-  , tags_(text, std::move(path))
-{
-}
-
 bool VtkXml::next()
 {
-  if (!tags_.next())
+  if (!this->next_tag())
   {
     return false;
   }
-  if (tags_.element() == "/VTKFile")
+  if (element_ == "/VTKFile")
   {
     this->read_file_tag();
   }
-  else if (tags_.element() == "/VTKFile/AppendedData")
+  else if (element_ == "/VTKFile/AppendedData")
   {
     this->read_appended();
   }
@@ -244,42 +232,42 @@ bool VtkXml::next()
 
 void VtkXml::read_file_tag()
 {
-  big_endian_ = choose(tags_, "byte_order", true, byte_orders);
-  header_bytes_ = choose(tags_, "header_type", true, header_types);
-  const std::string_view compressor = tags_.attribute("compressor");
+  big_endian_ = choose(*this, "byte_order", true, byte_orders);
+  header_bytes_ = choose(*this, "header_type", true, header_types);
+  const std::string_view compressor = this->attribute("compressor");
   compressed_ = !compressor.empty();
   if (compressed_ && compressor != "vtkZLibDataCompressor")
   {
     throw UnsupportedError(
       "expected values without compression or with vtkZLibDataCompressor, got " +
         quoted(compressor) + "; save the file with zlib or as ASCII",
-      tags_.where(tags_.begin()));
+      this->where(begin_));
   }
 }
 
 /// Whatever these bytes are, none of them are tags.
 void VtkXml::read_appended()
 {
-  appended_base64_ = choose(tags_, "encoding", true, encodings);
+  appended_base64_ = choose(*this, "encoding", true, encodings);
   const std::size_t last = text_.rfind("</AppendedData");
-  const std::size_t mark = text_.find('_', tags_.end());
+  const std::size_t mark = text_.find('_', end_);
   if (last == std::string_view::npos || mark == std::string_view::npos || mark >= last)
   {
-    tags_.fail("'_' and bytes behind AppendedData, and its end", "none");
+    this->fail("'_' and bytes behind AppendedData, and its end", "none");
   }
   appended_ = text_.substr(mark + 1, last - mark - 1);
-  tags_.go_to(last);
+  end_ = last;
 }
 
 std::int64_t VtkXml::count(std::string_view attribute, std::int64_t otherwise) const
 {
-  const std::string_view text = tags_.attribute(attribute);
+  const std::string_view text = this->attribute(attribute);
   std::int64_t number = otherwise;
   const bool good =
     text.empty() || (parse_int64(text.data(), text.data() + text.size(), number) && number >= 0);
   if (!good || number < 0)
   {
-    tags_.fail("a number of at least 0 as " + std::string(attribute), quoted(text));
+    this->fail("a number of at least 0 as " + std::string(attribute), quoted(text));
   }
   return number;
 }
@@ -287,22 +275,22 @@ std::int64_t VtkXml::count(std::string_view attribute, std::int64_t otherwise) c
 VtkXmlArray VtkXml::array() const
 {
   VtkXmlArray array;
-  array.name = tags_.attribute("Name");
-  array.type = choose(tags_, "type", false, types);
-  array.form = choose(tags_, "format", true, forms);
+  array.name = this->attribute("Name");
+  array.type = choose(*this, "type", false, types);
+  array.form = choose(*this, "format", true, forms);
   array.components = this->count("NumberOfComponents", 1);
   if (array.form == VtkXmlArray::Form::Appended)
   {
     array.offset = this->count("offset");
   }
-  array.text = tags_.text();
-  array.begin = tags_.begin();
+  array.text = ended_ ? std::string_view() : text_.substr(end_, text_.find('<', end_) - end_);
+  array.begin = begin_;
   return array;
 }
 
 Where VtkXml::where(const VtkXmlArray& array) const
 {
-  Where where = tags_.where(array.begin);
+  Where where = this->where(array.begin);
   where.column = array.name.substr(0, 40);
   return where;
 }
@@ -319,6 +307,6 @@ Where VtkXml::where_of(const VtkXmlArray& array, std::int64_t number) const
   {
     word = take_word(rest);
   }
-  return tags_.where(static_cast<std::size_t>(word.data() - text_.data()));
+  return this->where(static_cast<std::size_t>(word.data() - text_.data()));
 }
 }

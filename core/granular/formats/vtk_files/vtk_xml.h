@@ -25,56 +25,6 @@ constexpr std::size_t base64_chars(std::size_t bytes) noexcept
 /// if the text is too short or is not base64.
 std::optional<std::string> decode_base64(std::string_view text, std::size_t bytes);
 
-/// Finds the start tags of an XML text in order, and matches the end tags with them. Skips declarations and comments.
-/// Entities are left as they are; <!DOCTYPE and CDATA are not tags.
-class XmlTags
-{
-public:
-  /// Begins at the start of a text, which must outlive this object. path is used in errors.
-  XmlTags(std::string_view text, std::string path);
-
-  /// Moves to the next tag <name ...> or <name .../>. Returns false at the end of the text, where all elements must
-  /// have ended. Throws FormatError with the line.
-  bool next();
-
-  /// Returns the path of the element: the names of the elements around it and its own, each followed by '/'.
-  const std::string& element() const noexcept { return element_; }
-
-  /// Returns the value of an attribute; empty if it is missing.
-  std::string_view attribute(std::string_view name) const noexcept;
-
-  /// Returns the text between the tag and the next one.
-  std::string_view text() const noexcept;
-
-  std::size_t begin() const noexcept { return begin_; } ///< the byte of its '<'
-  std::size_t end() const noexcept { return end_; }     ///< behind its '>'
-
-  /// Continues at a byte, which must be after end().
-  void go_to(std::size_t byte) noexcept { end_ = byte; }
-
-  /// Returns the line of a byte of the text.
-  Where where(std::size_t byte) const;
-
-  [[noreturn]] void fail(const std::string& expected, const std::string& got) const;
-
-private:
-  bool find_tag();
-  void pass(std::string_view mark);
-  void end_element(std::string_view name);
-  std::string_view take_name();
-  void take_attributes();
-  void skip_blanks() noexcept;
-  bool take(char c) noexcept;
-
-  std::string_view text_;
-  std::string path_;
-  std::string element_;
-  std::vector<std::pair<std::string_view, std::string_view>> attributes_;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  bool ended_ = true; ///< the element of the tag has ended with it
-};
-
 /// A DataArray of a VTK XML file. It refers to the text of the file.
 struct VtkXmlArray
 {
@@ -95,10 +45,11 @@ struct VtkXmlArray
   std::size_t begin = 0;   ///< the byte of its tag
 };
 
-/// Reads the XML files of VTK element by element; the caller knows which arrays a dataset has. Values are decoded after
-/// all elements were passed, because appended arrays come last. Handles both byte orders, headers of 32 and 64 bits,
-/// and plain or zlib data. Counts in a file are claims: memory is allocated only after the bytes that it needs are
-/// found.
+/// Reads the XML files of VTK element by element; the caller knows which arrays a dataset has. Finds the start tags in order,
+/// and matches the end tags with them. Skips declarations and comments. Entities are left as they are; <!DOCTYPE and CDATA are
+/// not tags. Values are decoded after all elements were passed, because appended arrays come last. Handles both byte orders,
+/// headers of 32 and 64 bits, and plain or zlib data. Counts in a file are claims: memory is allocated only after the bytes
+/// that it needs are found.
 ///
 /// All members throw FormatError with line or byte, and UnsupportedError for other compressors.
 class VtkXml
@@ -107,9 +58,15 @@ public:
   /// Begins at the start of a text, which must outlive this object. path is used in errors.
   VtkXml(std::string_view text, std::string path);
 
-  /// Moves to the next element; see XmlTags. Returns false at the end.
+  /// Moves to the next tag <name ...> or <name .../>. Returns false at the end of the text, where all elements must
+  /// have ended.
   bool next();
-  const XmlTags& tags() const noexcept { return tags_; }
+
+  /// Returns the path of the element: the names of the elements around it and its own, each behind a '/'.
+  const std::string& element() const noexcept { return element_; }
+
+  /// Returns the value of an attribute; empty if it is missing.
+  std::string_view attribute(std::string_view name) const noexcept;
 
   /// Returns an attribute of the element that is an integer of at least 0, or `otherwise` if it is missing.
   std::int64_t count(std::string_view attribute, std::int64_t otherwise) const;
@@ -130,7 +87,23 @@ public:
   /// Returns the place of an array, with its name.
   Where where(const VtkXmlArray& array) const;
 
+  std::size_t begin() const noexcept { return begin_; } ///< the byte of the tag's '<'
+
+  /// Returns the line of a byte of the text.
+  Where where(std::size_t byte) const;
+
+  /// Throws with the line of the tag.
+  [[noreturn]] void fail(const std::string& expected, const std::string& got) const;
+
 private:
+  bool next_tag();
+  bool find_tag();
+  void pass(std::string_view mark);
+  void end_element(std::string_view name);
+  std::string_view take_name();
+  void take_attributes();
+  void skip_blanks() noexcept;
+  bool take(char c) noexcept;
   void read_file_tag();
   void read_appended();
   template <class T>
@@ -141,7 +114,11 @@ private:
 
   std::string_view text_;
   std::string path_;
-  XmlTags tags_;
+  std::string element_;
+  std::vector<std::pair<std::string_view, std::string_view>> attributes_;
+  std::size_t begin_ = 0; ///< of the tag
+  std::size_t end_ = 0;   ///< behind its '>'
+  bool ended_ = true;     ///< the element of the tag has ended with it
   bool big_endian_ = false;
   bool compressed_ = false;
   std::size_t header_bytes_ = 4; ///< of a number before binary values
