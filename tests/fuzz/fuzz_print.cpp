@@ -3,7 +3,6 @@
 // bytes as a text are a format to parse, too.
 #include "granular/common/error.h"
 #include "granular/numbers/number.h"
-#include "granular/numbers/number_cells.h"
 #include "granular/numbers/number_print.h"
 #include "granular/numbers/number_print_few.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Columns of numbers as cells of text, against printf and numbers printed one by one.
-#include "granular/numbers/number_cells.h"
-#include "granular/numbers/six_digits.h"
+#include "granular/numbers/number_print.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +94,7 @@ std::vector<double> hard_doubles()
     -2.2250738585072014e-308, std::numeric_limits<double>::max(),
     -std::numeric_limits<double>::max(), 0x1p-963, 0x1p53, -0x1p53 - 2, 9007199254740991.0,
     999999.5, 9999995e-10, 0.5, 2.5, 1e5, 123456.5, 1e6, 1e15, 1e16, 1e17, 1e22, 1e23, 0.1, -0.3,
-    1.0 / 3 };
+    1.0 / 3, 2.0 / 3, 0.001, -123.456, 999999, -0.5 - 99999, -1e300, 5e-324 };
   for (const double place : { 0x1p-33, 999999.5, 99999.95, 0.9999995 })
   {
     values.insert(values.end(), { std::nextafter(place, 0), place, std::nextafter(place, 1e9) });
@@ -176,46 +175,6 @@ TEST(NumberCells, any_count)
     expect_cells(values, words,
       [&](const double* from, std::int64_t step, std::size_t number, const NumberCells& to)
       { granular::print_numbers(from, step, number, { 6 }, false, to); });
-  }
-}
-
-TEST(SixDigits, are_found_in_their_range)
-{
-  using granular::number_print::SixDigits;
-  struct Case
-  {
-    double value;
-    const char* digits;
-    std::int64_t k;
-  };
-  constexpr std::int64_t none = SixDigits::not_found;
-  const double inf = std::numeric_limits<double>::infinity();
-  const Case cases[] = { { 0.0, "000000", 0 }, { -0.0, "000000", 0 }, { 1, "100000", 0 },
-    { -1, "100000", 0 }, { 0x1p-33, "116415", -10 }, { -123.456, "123456", 2 },
-    { 999999, "999999", 5 }, { std::nextafter(1e6, 0), "100000", 6 }, { 0.001, "100000", -3 },
-    { 2.0 / 3, "666667", -1 }, { std::nextafter(0x1p-33, 0), "", none }, { 1e6, "", none },
-    { -1e300, "", none }, { inf, "", none }, { -inf, "", none }, { std::nan(""), "", none },
-    { 5e-324, "", none }, { 123456.5, "", none }, { -0.5 - 99999, "999995", 4 } };
-  if (granular::best_simd() == Simd::Portable)
-  {
-    GTEST_SKIP() << "no AVX2 here";
-  }
-  SixDigits numbers;
-  std::size_t count = 0;
-  for (const Case& each : cases)
-  {
-    numbers.values[count++] = each.value;
-  }
-  granular::number_print::find_six_digits(numbers, count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    EXPECT_EQ(numbers.k[i], cases[i].k) << cases[i].value;
-    for (unsigned place = 0; place < 8 && cases[i].k != none; ++place)
-    {
-      const std::uint64_t digit =
-        place < 6 ? static_cast<std::uint64_t>(cases[i].digits[place] - '0') : 0;
-      EXPECT_EQ(numbers.digits[i] >> (8 * place) & 0xff, digit) << cases[i].value << ", " << place;
-    }
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times of steps against strtod of the exact product, multiplied digit by digit as at school.
-#include "granular/numbers/step_clock.h"
+#include "granular/numbers/number.h"
 
 #include "../support/hard_case.h"
 

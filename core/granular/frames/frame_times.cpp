@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/frame_times.h"
 
+#include "granular/numbers/number.h"
 #include "granular/numbers/number_print.h"
-#include "granular/numbers/step_clock.h"
 
 #include <algorithm>
 #include <cmath>

@@ -28,46 +28,6 @@ using namespace number_print;
                      : std::to_chars(to, last, value, std::chars_format::general, digits).ptr;
 }
 
-inline std::uint64_t odd_part(std::uint64_t n)
-{
-  return n >> std::countr_zero(n);
-}
-
-enum class Rounding : std::uint8_t
-{
-  Down,
-  Up,
-  Unknown
-};
-
-/// Tells if mantissa * 10^q, of which 64 bits are too near to a half, is rounded up. floor is the
-/// number before the point, shift the bits after it in the high half of the product.
-Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floor) noexcept
-{
-  const PowerOfFive& five = power_of_five(q);
-  const Wide first = Wide{ mantissa } * five.high;
-  const Wide product = first + (Wide{ mantissa } * five.low >> 64);
-  const Wide half = Wide{ 1 } << (63 + shift);
-  const Wide rest = product & ((half << 1) - 1);
-  bool is_half = false;
-  if (q >= 0 && q <= 27)
-  {
-    is_half = rest == half; // the product is exact
-  }
-  else if (rest + 2 - half <= 4)
-  {
-    // It is a half only if 5^-q divides the mantissa. And if it does, it is one: the quotient is a
-    // multiple of a power of two far above this distance.
-    if (q > 0 || q < -27 || mantissa % odd_part(power_of_five(-q).high) != 0)
-    {
-      return Rounding::Unknown;
-    }
-    is_half = true;
-  }
-  const bool is_up = is_half ? (floor & 1) != 0 : rest > half;
-  return is_up ? Rounding::Up : Rounding::Down;
-}
-
 /// Any digits from 1 to 17.
 [[gnu::noinline]] char* print_many(char* to, double value, int digits) noexcept
 {
@@ -76,16 +36,22 @@ Rounding round_half(std::uint64_t mantissa, int q, int shift, std::uint64_t floo
   const std::uint64_t floor = scaled.product >> scaled.shift;
   const std::uint64_t half = std::uint64_t{ 1 } << (scaled.shift - 1);
   const std::uint64_t rest = scaled.product & (2 * half - 1);
-  std::uint64_t whole = floor + (rest >= half ? 1 : 0);
+  bool up = rest >= half;
   if (rest + 1 - half <= 1) [[unlikely]]
   {
-    const Rounding rounding = round_half(scaled.mantissa, scaled.q, scaled.shift, floor);
-    if (rounding == Rounding::Unknown)
+    // 64 bits are too near to a half; of 128 the error is less than two units
+    const PowerOfFive& five = power_of_five(scaled.q);
+    const Wide product =
+      Wide{ scaled.mantissa } * five.high + (Wide{ scaled.mantissa } * five.low >> 64);
+    const Wide middle = Wide{ half } << 64;
+    const Wide behind = product & (2 * middle - 1);
+    if (behind + 2 - middle <= 4)
     {
-      return print_exactly(to, value, digits);
+      return print_exactly(to, value, digits); // mostly of a number that is a half
     }
-    whole = floor + (rounding == Rounding::Up ? 1 : 0);
+    up = behind > middle;
   }
+  std::uint64_t whole = floor + (up ? 1 : 0);
   int k = digits - 1 - scaled.q;
   if (whole == whole_power_of_ten(digits)) [[unlikely]]
   {

@@ -2,7 +2,7 @@
 #include "granular/formats/dump/write/row_batches.h"
 
 #include "granular/common/words.h"
-#include "granular/numbers/number_cells.h"
+#include "granular/numbers/number_print.h"
 
 #include <array>
 #include <cstring>
