@@ -159,9 +159,10 @@ struct Work
         { static_cast<std::uint32_t>(i), form.is_double(i) ? ValueType::Float64 : ValueType::Int64,
           this->place(0, i), 8 * form.columns() });
     }
+    granular::RowMemory memory;
     const granular::RowResult result = granular::decode_rows(text.data(), text.data() + text.size(),
       static_cast<std::uint32_t>(form.columns()), sinks, std::numeric_limits<std::int64_t>::max(),
-      simd);
+      memory, simd);
     return result.status == granular::RowStatus::Done && result.rows == rows;
   }
 

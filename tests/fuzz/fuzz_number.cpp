@@ -80,8 +80,9 @@ RowStatus decode(const std::string& word, granular::ValueType kind, granular::Si
   std::copy(word.begin(), word.end(), buffer.data());
   buffer.data()[word.size()] = '\n';
   ColumnSink sink{ 0, kind, reinterpret_cast<char*>(&value), sizeof value };
+  granular::RowMemory memory;
   return granular::decode_rows(
-    buffer.data(), buffer.data() + buffer.size(), 1, { &sink, 1 }, 1, simd)
+    buffer.data(), buffer.data() + buffer.size(), 1, { &sink, 1 }, 1, memory, simd)
     .status;
 }
 

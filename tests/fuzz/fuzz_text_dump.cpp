@@ -39,8 +39,9 @@ RowResult decode(const char* first, const char* last, std::size_t columns, bool 
     sinks.push_back({ static_cast<std::uint32_t>(i), texts ? ValueType::Text : ValueType::Float64,
       memory.data() + i * slot, static_cast<std::ptrdiff_t>(columns * slot) });
   }
+  RowMemory room;
   const RowResult result = decode_rows(first, last, static_cast<std::uint32_t>(columns), sinks,
-    static_cast<std::int64_t>(lines), simd);
+    static_cast<std::int64_t>(lines), room, simd);
   memory.resize(static_cast<std::size_t>(result.rows) * columns * slot);
   return result;
 }

@@ -50,8 +50,9 @@ Decoded decode(std::string_view text, std::uint32_t columns, const std::vector<W
     memory.emplace_back(lines * slot, '\x5a');
     sinks.push_back({ one.column, one.type, memory.back().data(), slot });
   }
+  granular::RowMemory room;
   const granular::RowResult result = granular::decode_rows(
-    buffer.data(), buffer.data() + text.size(), columns, sinks, max_rows, simd);
+    buffer.data(), buffer.data() + text.size(), columns, sinks, max_rows, room, simd);
 
   Decoded decoded{ result.status, result.rows, result.column, result.ptr - buffer.data(),
     result.surplus, {}, {} };

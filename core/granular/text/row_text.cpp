@@ -12,6 +12,11 @@ namespace granular
 {
 namespace row_text
 {
+void FreeBatch::operator()(Batch* batch) const noexcept
+{
+  delete batch;
+}
+
 void store_text(const char* first, const char* last, char* data) noexcept
 {
   const std::string_view text(first, static_cast<std::size_t>(last - first));
@@ -178,13 +183,6 @@ RowStatus check_word(std::string_view word, ValueType type) noexcept
 {
   char value[sizeof(std::string_view)];
   return row_text::store(word.data(), word.data() + word.size(), { 0, type, value, 0 });
-}
-
-RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
-  std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd) noexcept
-{
-  RowMemory memory;
-  return decode_rows(first, last, columns, sinks, max_rows, memory, simd);
 }
 
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,

@@ -9,10 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <span>
 #include <string_view>
-#include <type_traits>
 
 namespace granular
 {
@@ -48,38 +46,19 @@ struct RowResult
   bool surplus = false; ///< some row had more words than columns; they were passed over
 };
 
-/// Memory that decode_rows needs, about 250 kB. It is kept for the next call, and not on the stack, which may be small.
-class RowMemory
+namespace row_text
 {
-public:
-  /// Returns memory for an object whose constructor does nothing; null if there is none.
-  template <typename Object>
-  Object* get() noexcept
-  {
-    static_assert(std::is_trivially_default_constructible_v<Object>);
-    if (bytes_ < sizeof(Object))
-    {
-      memory_.reset(static_cast<std::byte*>(
-        ::operator new(sizeof(Object), std::align_val_t(alignment), std::nothrow)));
-      bytes_ = memory_ ? sizeof(Object) : 0;
-    }
-    return bytes_ > 0 ? new (memory_.get()) Object : nullptr;
-  }
+struct Batch;
 
-private:
-  static constexpr std::size_t alignment = 64;
-
-  struct Free
-  {
-    void operator()(std::byte* memory) const noexcept
-    {
-      ::operator delete(memory, std::align_val_t(alignment));
-    }
-  };
-
-  std::unique_ptr<std::byte, Free> memory_;
-  std::size_t bytes_ = 0;
+struct FreeBatch
+{
+  void operator()(Batch* batch) const noexcept;
 };
+}
+
+/// Memory that decode_rows needs, about 250 kB, and allocates. It is kept for the next call, and not on the stack, which may be
+/// small.
+using RowMemory = std::unique_ptr<row_text::Batch, row_text::FreeBatch>;
 
 /// Decodes rows of blank-separated words into columns.
 ///
@@ -91,10 +70,6 @@ private:
 RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
   std::span<ColumnSink> sinks, std::int64_t max_rows, RowMemory& memory,
   Simd simd = best_simd()) noexcept;
-
-/// The same with memory for this call alone.
-RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
-  std::span<ColumnSink> sinks, std::int64_t max_rows, Simd simd = best_simd()) noexcept;
 
 /// Returns the status that decode_rows gives for a single word: Done, NotANumber or NotExact.
 RowStatus check_word(std::string_view word, ValueType type) noexcept;

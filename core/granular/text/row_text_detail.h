@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <type_traits>
 
 namespace granular::row_text
@@ -33,7 +34,6 @@ void store_text(const char* first, const char* last, char* data) noexcept;
 void decode_plain(
   const char* last, RowPlan& plan, std::int64_t max_rows, RowResult& result) noexcept;
 
-#if GRANULAR_X86
 inline constexpr std::ptrdiff_t batch_bytes = 16384;
 
 /// The edges of words in up to batch_bytes of text, with some extra room because groups are written without checks.
@@ -79,6 +79,7 @@ struct Batch
   Words words;
 };
 
+#if GRANULAR_X86
 /// The places of the bits of a byte, in order.
 alignas(64) inline constexpr auto bit_places = []
 {
