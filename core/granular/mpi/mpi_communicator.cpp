@@ -2,7 +2,6 @@
 #include "granular/mpi/mpi_communicator.h"
 
 #include "granular/common/error.h"
-#include "granular/mpi/mpi_file.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -287,12 +286,5 @@ void MpiCommunicator::receive(std::string& bytes, int from)
       check(
         MPI_Recv(bytes.data() + offset, part, MPI_BYTE, from, pair_tag, ranks_, MPI_STATUS_IGNORE));
     });
-}
-
-std::unique_ptr<OutputFile> MpiCommunicator::open_together(const std::string& path)
-{
-  std::unique_ptr<MpiFile> file;
-  do_together(*this, [&] { file = std::make_unique<MpiFile>(*this, path, most_bytes_); });
-  return file->open() ? std::move(file) : nullptr;
 }
 }

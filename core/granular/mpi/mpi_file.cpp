@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/mpi/mpi_file.h"
+#include "granular/mpi/mpi_communicator.h"
 
+#include "granular/bytes/byte_sink.h"
 #include "granular/common/error.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -36,14 +40,41 @@ std::errc code_of(int status)
     [&](const Reason& one) { return one.mpi_class == mpi_class; });
   return reason == std::end(reasons) ? std::errc{} : reason->code;
 }
-}
 
-MpiFile::MpiFile(Communicator& ranks, const std::string& path, std::int64_t most_bytes)
-  : ranks_(ranks)
-  , path_(path)
-  , most_bytes_(most_bytes)
+/// A file that all ranks write with MPI-IO. Rank 0 creates it and gives it its name, as NewFile does.
+class MpiFile final : public OutputFile
 {
-}
+public:
+  /// Stores the arguments; not collective, and the file is not open yet. MPI counts in int: larger data than most_bytes
+  /// go in several writes. The ranks must outlive the file.
+  MpiFile(Communicator& ranks, const std::string& path, std::int64_t most_bytes)
+    : ranks_(ranks)
+    , path_(path)
+    , most_bytes_(most_bytes)
+  {
+  }
+  ~MpiFile() override;
+
+  /// Opens the file. Throws IoError on all ranks if one cannot open it. Returns false, and the object is unusable, if
+  /// the path contains a colon: MPI may read it as the name of a file system. Collective.
+  bool open();
+
+  void write_at(std::int64_t offset, std::string_view bytes) override;
+  void finish(bool durable) override;
+
+private:
+  void open_own();
+  void check(int status) const;
+  int write_some(std::int64_t offset, std::string_view bytes, int& status);
+  void leave() noexcept;
+
+  Communicator& ranks_;
+  std::string path_;
+  std::string name_; ///< of the file while it is written; empty: there is none
+  std::int64_t most_bytes_;
+  std::unique_ptr<NewFile> made_; ///< of rank 0
+  MPI_File file_ = MPI_FILE_NULL;
+};
 
 MpiFile::~MpiFile()
 {
@@ -178,5 +209,13 @@ void MpiFile::check(int status) const
   MPI_Error_string(status, text, &length);
   throw IoError("cannot write: " + std::string(text, static_cast<std::size_t>(length)), { path_ },
     std::errc::io_error);
+}
+}
+
+std::unique_ptr<OutputFile> MpiCommunicator::open_together(const std::string& path)
+{
+  std::unique_ptr<MpiFile> file;
+  do_together(*this, [&] { file = std::make_unique<MpiFile>(*this, path, most_bytes_); });
+  return file->open() ? std::move(file) : nullptr;
 }
 }
