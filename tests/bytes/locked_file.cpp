@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What killed writers leave behind, and who removes it.
-#include "granular/bytes/locked_file.h"
 
 #include "granular/bytes/byte_sink.h"
 #include "granular/common/error.h"

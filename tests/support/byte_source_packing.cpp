@@ -2,7 +2,6 @@
 #include "byte_source_packing.h"
 #include "error_of.h"
 
-#include "granular/bytes/byte_source_unpack.h"
 #include "granular/common/error.h"
 
 #include <gtest/gtest.h>

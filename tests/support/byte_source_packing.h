@@ -2,8 +2,7 @@
 #ifndef granular_tests_support_byte_source_packing_h
 #define granular_tests_support_byte_source_packing_h
 
-#include "granular/bytes/byte_source.h"
-#include "granular/bytes/inflate.h"
+#include "granular/bytes/byte_source_unpack.h"
 
 #include <cstddef>
 #include <cstdint>

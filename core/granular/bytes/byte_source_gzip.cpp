@@ -3,7 +3,6 @@
 // from the middle on.
 #include "granular/bytes/byte_source_unpack.h"
 
-#include "granular/bytes/inflate.h"
 #include "granular/common/error.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 
 #include "granular/common/error.h"
 #include "granular/memory/block.h"
-#include "granular/memory/block_pool.h"
 
 #include <algorithm>
 #include <condition_variable>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/bytes/byte_source_unpack.h"
 
-#include "granular/bytes/inflate.h"
 #include "granular/common/error.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared by the decompressors in byte_source_*.cpp; private to these files.
+// Shared by the decompressors in byte_source_*.cpp and inflate.cpp; private to these files.
 #ifndef granular_bytes_byte_source_unpack_h
 #define granular_bytes_byte_source_unpack_h
 
@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -106,7 +108,49 @@ private:
   bool cut_ = false;
 };
 
-struct Inflation;
+/// Inflates deflate data (RFC 1951).
+class Inflate
+{
+public:
+  /// The outcome of a call.
+  struct Step
+  {
+    std::ptrdiff_t read =
+      0; ///< bytes of input; below 0: so many bytes of earlier calls were not needed
+    std::size_t written = 0;
+    bool ended = false;            ///< the last block is done
+    const char* damage = nullptr;  ///< why the input is no deflate data
+    std::optional<int> block_bits; ///< a block begins so many bits before the end of what was read
+  };
+
+  virtual ~Inflate() = default;
+
+  /// Goes to the first block.
+  virtual void start() = 0;
+
+  /// Goes to a block between others: `bits` (0 to 7) of its first bits are the upper ones of a byte that comes before the
+  /// input, and `window` (1 to 2^15 bytes) is the content before it.
+  virtual void start(int bits, unsigned byte, std::string_view window) = 0;
+
+  /// Inflates from `input` as much as there is room for. With `to_block`, stops where a block begins, if that can be seen and all
+  /// content before was written, and may stop before that. Throws std::bad_alloc.
+  virtual Step inflate(std::string_view input, std::span<char> output, bool to_block) = 0;
+
+  /// Returns the CRC-32 of bytes behind others that have the CRC-32 `before`.
+  virtual std::uint32_t check(std::uint32_t before, std::string_view bytes) const noexcept = 0;
+};
+
+/// A library that inflates.
+struct Inflation
+{
+  const char* name;
+  std::unique_ptr<Inflate> (*make)();
+};
+
+/// Returns those that there are, the fastest first. Whole data give the same content with all of them. What is damaged may be refused or
+/// not, as long as no sum is compared: ISA-L takes codes that are incomplete but not used. If data end within a block, up to three of
+/// the last bytes may be held back, and damage in its header may be seen or not.
+std::span<const Inflation> inflations() noexcept;
 
 std::unique_ptr<Decoder> make_gzip_decoder(
   const ByteSource& packed, std::shared_ptr<SeekPoints> points, const Inflation& inflation);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/bytes/inflate.h"
+#include "granular/bytes/byte_source_unpack.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/bytes/locked_file.h"
+#include "granular/bytes/byte_sink.h"
 
 #include "granular/bytes/system_calls.h"
 #include "granular/common/hash.h"
