@@ -4,7 +4,6 @@
 
 #include "granular/common/progress.h"
 #include "granular/memory/block.h"
-#include "granular/packing/box_shape.h"
 #include "granular/packing/lattice.h"
 #include "granular/packing/packing.h"
 #include "granular/packing/radii.h"
