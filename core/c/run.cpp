@@ -7,7 +7,7 @@
 #include "granular/common/archive.h"
 #include "granular/common/pass.h"
 #include "granular/common/words.h"
-#include "granular/geometry/region.h"
+#include "granular/geometry/box.h"
 #include "granular/lines/line_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"

@@ -5,7 +5,7 @@
 #include "frame.h"
 #include "granular.h"
 
-#include "granular/memory/block_pool.h"
+#include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 #include "granular/runs/run.h"
 

@@ -3,7 +3,7 @@
 #ifndef granular_tests_kernels_exact_kernel_h
 #define granular_tests_kernels_exact_kernel_h
 
-#include "granular/averages/kernel.h"
+#include "granular/averages/smooth_cells.h"
 #include "granular/geometry/box.h"
 
 #include "../support/quad.h"

@@ -3,7 +3,7 @@
 #include "exact_kernel.h"
 #include "kernel_reference.h"
 
-#include "granular/averages/kernel.h"
+#include "granular/averages/smooth_cells.h"
 
 #include "../support/error_of.h"
 #include "../support/hard_case.h"

@@ -3,7 +3,7 @@
 #ifndef granular_tests_kernels_kernel_reference_h
 #define granular_tests_kernels_kernel_reference_h
 
-#include "granular/averages/kernel.h"
+#include "granular/averages/smooth_cells.h"
 #include "granular/bytes/byte_source.h"
 #include "granular/geometry/box.h"
 

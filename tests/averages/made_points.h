@@ -5,7 +5,7 @@
 
 #include "made_touches.h"
 
-#include "granular/averages/point_average.h"
+#include "granular/averages/average.h"
 
 #include <cstddef>
 #include <random>

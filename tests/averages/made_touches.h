@@ -5,7 +5,7 @@
 
 #include "made_particles.h"
 
-#include "granular/averages/contact_cells.h"
+#include "granular/averages/average.h"
 #include "granular/contacts/find_ends.h"
 
 #include <array>

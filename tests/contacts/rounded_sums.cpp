@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums of doubles, held against sums of large integers, against 128 bits, and against halves by hand.
-#include "granular/geometry/rounded_sums.h"
+#include "granular/geometry/reproducible_sum.h"
 
 #include "../support/big_sum.h"
 #include "../support/hard_case.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Principal values, held against known spectra, and in 113 bits against Sylvester's law of inertia, which asks for no
 // eigenvalues; equivalent stresses, held against the formula in 113 bits.
-#include "granular/geometry/symmetric_tensor.h"
+#include "granular/contacts/contact_sums.h"
 
 #include "../support/hard_case.h"
 #include "../support/quad.h"

@@ -2,7 +2,7 @@
 // Arrays and cells whose memory comes from a pool and goes back there.
 #include "../../plugin/vtk/private/arrays/arrays.h"
 
-#include "granular/memory/block_pool.h"
+#include "granular/memory/block.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

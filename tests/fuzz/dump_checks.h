@@ -6,7 +6,7 @@
 
 #include "../support/read_source.h"
 
-#include "granular/memory/block_pool.h"
+#include "granular/memory/block.h"
 
 #include <cstdint>
 #include <cstdio>

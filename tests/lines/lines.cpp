@@ -2,7 +2,7 @@
 #include "granular/lines/lines.h"
 
 #include "granular/lines/minimum_image.h"
-#include "granular/memory/block_pool.h"
+#include "granular/memory/block.h"
 
 #include "../local/text_frames.h"
 #include "../support/hard_case.h"

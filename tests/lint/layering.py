@@ -42,7 +42,7 @@ SYSTEM_HEADERS = (
     (r"isa-l/\w+\.h", r"core/granular/bytes/inflate\.cpp"),
     (r"(zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source_zstd|compression)\.cpp"),
     (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
-    (r"sys/mman\.h", r"core/granular/memory/mapping\.cpp"),
+    (r"sys/mman\.h", r"core/granular/memory/block\.cpp"),
     (r"immintrin\.h", r"core/granular/(common/intrinsics\.h|text/line_scan\.cpp)"),
     (r"mpi\.h", r"core/granular/mpi/.*"),
 )

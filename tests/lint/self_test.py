@@ -149,7 +149,7 @@ class Layering(unittest.TestCase):
             core__granular__bytes__inflate_dot_cpp="#include <zlib.h>\n#include <zstd.h>\n#include <isa-l/crc.h>\n",
             core__granular__bytes__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
             core__granular__bytes__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
-            core__granular__memory__mapping_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
+            core__granular__memory__block_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
             core__granular__parallel__executor_dot_cpp="#include <sched.h>\n",
             core__granular__formats__dump__read__r_dot_cpp='#include "granular/formats/dump/grammar/f.h"\n'
             '#include "granular/formats/dump/write/w.h"\n#include "r.h"\n',
@@ -167,7 +167,7 @@ class Layering(unittest.TestCase):
                 "core/granular/bytes/inflate.cpp:2", "core/granular/dump/d.cpp:1",
                 "core/granular/formats/dump/read/r.cpp:2", "core/granular/formats/dump/read/r.cpp:3",
                 "core/granular/formats/euler/e.cpp:2",
-                "core/granular/formats/restart/r.cpp:1", "core/granular/memory/mapping.cpp:2", "core/granular/mpi/m.cpp:3"])
+                "core/granular/formats/restart/r.cpp:1", "core/granular/memory/block.cpp:2", "core/granular/mpi/m.cpp:3"])
 
     def test_rooms(self):
         files = {f"core__granular__text__a{i}_dot_h": "" for i in range(layering.MOST_FILES)}

@@ -2,7 +2,6 @@
 #include "../support/resident_memory.h"
 
 #include "granular/memory/block.h"
-#include "granular/memory/block_pool.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "walks.h"
 
 #include "granular/parallel/trade.h"
-#include "granular/paths/square_displacements.h"
+#include "granular/paths/paths.h"
 #include "granular/paths/statistics.h"
 
 #include <gtest/gtest.h>

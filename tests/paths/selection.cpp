@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sets of ids: against the words that say them, and against sets.
-#include "granular/paths/id_selection.h"
+#include "granular/paths/path_frame.h"
 
 #include "../support/error_of.h"
 #include "../support/thread_ranks.h"

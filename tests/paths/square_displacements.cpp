@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean square displacements: those of the walks, in integers, on any ranks and threads.
-#include "granular/paths/square_displacements.h"
+#include "granular/paths/paths.h"
 
 #include "../support/error_of.h"
 #include "../support/hard_case.h"

@@ -2,7 +2,7 @@
 #include "granular/averages/average.h"
 
 #include "granular/averages/average_passes.h"
-#include "granular/memory/mapping.h"
+#include "granular/memory/block.h"
 #include "granular/parallel/trade.h"
 #include "granular/particles/point_forms.h"
 

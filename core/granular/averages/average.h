@@ -15,10 +15,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace granular
 {
+class FoundEnds;
+
 /// The cells of a grid that a rank wants: those of a range with numbers in [first, last), in order.
 struct WantedCells
 {
@@ -147,5 +150,40 @@ std::int64_t check_particles(const FrameView& frame, const ParticleSources& sour
 /// radii. Collective.
 double largest_radius(
   const FrameView& frame, const ParticleArrayNames& arrays, Communicator& ranks);
+
+/// Adds the contacts to averages in cells: their stress, which is branch_a force_b over the volume, shared among the cells along
+/// the branch vector, by length or by the kernel of the request; with walls from the wall to the centre. Fields: contact stress;
+/// coordination: ends of contacts that count (2, with a wall 1) over particles, both by their parts in the cell; fabric: mean
+/// product of normals of these contacts, trace 1. With sums if the request keeps them, which coordination needs. Contacts without
+/// forces have no stress: the fields are empty. What averages know of particles stays: see add_contact_stress.
+///
+/// contacts: of this rank; may be anywhere. Those without a line (see ContactEnds::has_line) are left out. Sums as
+/// average_in_cells has them; terms of stresses are rounded to 2^-117 of the weakest contact, or less. Throws Error,
+/// LimitError, Cancelled. Collective.
+void average_contacts(const FoundEnds& contacts, const Box* box, const EulerAverageRequest& request,
+  Communicator& ranks, const Executor& executor, Progress& progress, EulerAverages& averages);
+
+/// Adds the contact stress to stress and pressure, and keeps what they were without it as the kinetic part.
+void add_contact_stress(EulerCells& cells, EulerFields& fields);
+
+struct PointAverageRequest
+{
+  Kernel kernel{ KernelShape::Gaussian, 1 };
+  ParticleArrayNames arrays;
+  bool pressure = true; ///< false, without tensors or a temperature: no fluctuations are looked at
+  bool tensors = false; ///< fill normal_stress and shear_stress
+  EulerFieldSet fields;
+};
+
+/// Averages the particles of a frame, and their contacts, at any points by a smoothing kernel: as average_in_cells does, with
+/// kernel / volume of the kernel in place of w / V, and the mean of the kernel over the line for contacts. The integral of the
+/// density over all space is the mass. Particles and contacts have periodic images, but not in a general box.
+///
+/// points: x y z of each, absolute, of this rank; the result has an entry for each, in order, and no centres. A point that is
+/// not finite gets zeros. Sums are correctly rounded, of terms that are rounded doubles: the same for any order of rows,
+/// threads and ranks. Throws Error, LimitError, Cancelled, on all ranks. Collective.
+EulerAverages average_at_points(const FrameView& frame, std::span<const double> points,
+  const FoundEnds* contacts, const PointAverageRequest& request, Communicator& ranks,
+  const Executor& executor, Notices& notices, Progress& progress);
 }
 #endif

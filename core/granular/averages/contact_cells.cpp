@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/averages/contact_cells.h"
+#include "granular/averages/average.h"
 
 #include "granular/averages/block_sums.h"
 #include "granular/averages/line_cells.h"
 #include "granular/averages/particle_loader.h"
+#include "granular/contacts/find_ends.h"
 #include "granular/geometry/reproducible_sum.h"
 #include "granular/parallel/trade.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/averages/kernel.h"
+#include "granular/averages/smooth_cells.h"
 
 #include "granular/common/error.h"
 #include "granular/geometry/expansion.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/averages/point_average.h"
+#include "granular/averages/average.h"
 
 #include "granular/averages/particle_loader.h"
 #include "granular/averages/point_sources.h"
-#include "granular/geometry/rounded_sums.h"
+#include "granular/geometry/reproducible_sum.h"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ std::array<double, count> sum_terms(std::size_t n, const Make& make)
 /// The sources of averages at points, and the averages.
 struct PointSums
 {
-  using Near = std::span<const std::uint32_t>;
+  using Near = std::span<const std::int64_t>;
 
   /// Returns the sum of the weights.
   double add_particles(std::size_t to, const Vector3& point, Near near)
@@ -67,7 +67,7 @@ struct PointSums
     const auto sums = sum_terms<7>(near.size(),
       [&](std::size_t i, std::array<double, 7>& terms)
       {
-        const NearParticle& particle = found.particles[near[i]];
+        const NearParticle& particle = found.particles[static_cast<std::size_t>(near[i])];
         const double w = weight(particle);
         const double mass = w * particle.mass;
         const auto& [x, y, z] = particle.velocity;
@@ -81,7 +81,7 @@ struct PointSums
       const auto fluctuations = sum_terms<7>(near.size(),
         [&](std::size_t i, std::array<double, 7>& terms)
         {
-          const NearParticle& particle = found.particles[near[i]];
+          const NearParticle& particle = found.particles[static_cast<std::size_t>(near[i])];
           const double w = weight(particle);
           terms = fluctuation_terms(w * particle.mass, particle.velocity.data(), mean);
           return w > 0;
@@ -96,7 +96,7 @@ struct PointSums
     std::vector<double> means(near.size());
     for (std::size_t i = 0; i < near.size(); ++i)
     {
-      const NearLine& line = found.lines[near[i]];
+      const NearLine& line = found.lines[static_cast<std::size_t>(near[i])];
       means[i] = per_volume *
         request.kernel.line_mean(
           { point[0] - line.start[0], point[1] - line.start[1], point[2] - line.start[2] },
@@ -105,7 +105,7 @@ struct PointSums
     const auto sums = sum_terms<14>(near.size(),
       [&](std::size_t i, std::array<double, 14>& terms)
       {
-        const NearLine& line = found.lines[near[i]];
+        const NearLine& line = found.lines[static_cast<std::size_t>(near[i])];
         const double w = means[i];
         const auto& [x, y, z] = line.branch;
         const auto& [fx, fy, fz] = line.force;

@@ -118,7 +118,7 @@ public:
       const Vector3 point = of(rows_.contact_point, row);
       return images_.moved(point, images_.find(minus(point, centre)), centre);
     }
-    return kinds_.walls ? minus(branch) : this->turned(end, times(this->part(row, end), branch));
+    return kinds_.walls ? negative(branch) : this->turned(end, times(this->part(row, end), branch));
   }
 
   /// Returns the torque on the particle at an end. Both together have the moment of the two forces, which have the branch
@@ -147,11 +147,7 @@ public:
   double friction(std::size_t row) const noexcept;
 
 private:
-  static Vector3 minus(const Vector3& a, const Vector3& b) noexcept
-  {
-    return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-  }
-  static Vector3 minus(const Vector3& a) noexcept { return { -a[0], -a[1], -a[2] }; }
+  static Vector3 negative(const Vector3& a) noexcept { return { -a[0], -a[1], -a[2] }; }
   static Vector3 times(double factor, const Vector3& a) noexcept
   {
     return { factor * a[0], factor * a[1], factor * a[2] };
@@ -166,7 +162,7 @@ private:
   bool is_other(std::size_t end) const noexcept { return end == 1 && !kinds_.walls; }
   Vector3 turned(std::size_t end, const Vector3& a) const noexcept
   {
-    return this->is_other(end) ? minus(a) : a;
+    return this->is_other(end) ? negative(a) : a;
   }
 
   Vector3 drawn(std::size_t row, std::size_t end) const noexcept

@@ -3,9 +3,7 @@
 #define granular_contacts_contact_rows_h
 
 #include "granular/geometry/box.h"
-#include "granular/parallel/communicator.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -41,20 +39,5 @@ struct ContactKinds
   bool contact_point = false;
   bool overlap = false;
 };
-
-/// Returns what the ranks that have rows know. Throws Error if they differ, or if a span has another size than the rows need.
-/// Collective.
-ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks);
-
-constexpr double largest_usable = 0x1.fffffffffffffp289;
-
-/// Returns true for a number that sums can have: it is finite, and not too large to multiply (below 2^290).
-inline bool is_usable(double number) noexcept
-{
-  return std::abs(number) <= largest_usable;
-}
-
-/// Returns true if one of some rows is left out, as a number of it is not usable.
-bool is_broken(const ContactRows& rows, std::size_t first, std::size_t count) noexcept;
 }
 #endif

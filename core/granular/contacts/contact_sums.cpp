@@ -4,13 +4,14 @@
 #include "granular/common/error.h"
 #include "granular/contacts/find_ends.h"
 #include "granular/contacts/sum_ends.h"
-#include "granular/geometry/symmetric_tensor.h"
 #include "granular/grid/sphere_box.h"
 #include "granular/parallel/trade.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -18,108 +19,116 @@ namespace granular
 {
 namespace
 {
-/// Ends of contacts that all are known here.
-class EndsHere final : public EndSource
+using Matrix = std::array<Vector3, 3>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Divides a tensor by a power of two, so that nothing over- or underflows. Returns false if it is not finite.
+bool scale(SymmetricTensor& tensor, int& power) noexcept
 {
-public:
-  EndsHere(const FoundEnds& found, const ContactTerms& terms)
-    : found_(found)
-    , terms_(terms)
+  double largest = 0;
+  for (const double value : tensor)
   {
+    largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : HUGE_VAL;
   }
-
-  std::span<const std::int64_t> places() const noexcept override { return found_.places(); }
-
-  /// Makes the terms of some ends; those of both ends of a contact at once, where they follow each other.
-  void read(std::span<const std::size_t> wanted, EndTerms* to) const noexcept override
+  power = largest > 0 ? std::ilogb(largest) : 0;
+  for (double& value : tensor)
   {
-    for (std::size_t i = 0; i < wanted.size(); ++i)
+    value = std::ldexp(value, -power);
+  }
+  return largest < HUGE_VAL;
+}
+
+/// Turns the axes p and q so that a[p][q] becomes 0 (C. G. J. Jacobi, J. Reine Angew. Math. 30, 1846).
+void rotate(Matrix& a, std::size_t p, std::size_t q) noexcept
+{
+  if (a[p][q] == 0)
+  {
+    return;
+  }
+  const double half = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  const double tangent = std::copysign(1.0, half) / (std::abs(half) + std::hypot(1.0, half));
+  const double cosine = 1 / std::hypot(1.0, tangent);
+  const double sine = tangent * cosine;
+  const std::size_t r = 3 - p - q;
+  const double shift = tangent * a[p][q];
+  a[p][p] -= shift;
+  a[q][q] += shift;
+  a[p][q] = a[q][p] = 0;
+  const double rp = a[r][p];
+  const double rq = a[r][q];
+  a[r][p] = a[p][r] = cosine * rp - sine * rq;
+  a[r][q] = a[q][r] = sine * rp + cosine * rq;
+}
+
+/// Makes the terms of some ends; those of both ends of a contact at once, where they follow each other.
+void read_ends(const FoundEnds& found, const ContactTerms& terms,
+  std::span<const std::size_t> wanted, EndTerms* to) noexcept
+{
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    const std::size_t contact = wanted[i] / 2;
+    const auto [ends, row] = found.at(static_cast<std::int64_t>(contact));
+    std::array<EndTerms*, 2> both = {};
+    both[wanted[i] % 2] = to + i;
+    if (i + 1 < wanted.size() && wanted[i + 1] / 2 == contact)
     {
-      const std::size_t contact = wanted[i] / 2;
-      const auto [ends, row] = found_.at(static_cast<std::int64_t>(contact));
-      std::array<EndTerms*, 2> both = {};
+      ++i;
       both[wanted[i] % 2] = to + i;
-      if (i + 1 < wanted.size() && wanted[i + 1] / 2 == contact)
-      {
-        ++i;
-        both[wanted[i] % 2] = to + i;
-      }
-      terms_.make(ends, row, both);
     }
+    terms.make(ends, row, both);
   }
-
-private:
-  const FoundEnds& found_;
-  ContactTerms terms_;
-};
+}
 
 /// Ends of contacts that come from the ranks which have them.
-class SentEnds final : public EndSource
+struct SentEnds
 {
-public:
-  /// Sends the ends to the ranks of their particles. Collective.
-  SentEnds(const FoundEnds& found, const ContactTerms& terms, Communicator& ranks,
-    const Executor& executor, Progress& progress)
-    : width_(terms.count)
-  {
-    const EndsHere ends(found, terms);
-    const std::vector<ParticleHome> homes = found.homes();
-    const auto size = static_cast<std::size_t>(ranks.size());
-    const auto home_of = [&](std::size_t end)
-    {
-      const std::int64_t place = ends.places()[end];
-      return place < 0 ? ParticleHome{} : homes[static_cast<std::size_t>(place)];
-    };
-    const ByRank sorted = sort_by_rank(ends.places().size(), size,
-      [&](std::size_t end)
-      {
-        const std::int64_t rank = home_of(end).rank;
-        return rank < 0 ? size : static_cast<std::size_t>(rank);
-      });
-    std::vector<std::int64_t> rows(sorted.places.size());
-    std::vector<Counted> counted(rows.size());
-    std::vector<double> all(width_ * rows.size());
-    executor.for_each_stretch(
-      rows.size(), 256,
-      [&](std::size_t first, std::size_t count, std::size_t)
-      {
-        const std::vector<std::size_t> wanted(
-          sorted.places.begin() + static_cast<std::ptrdiff_t>(first),
-          sorted.places.begin() + static_cast<std::ptrdiff_t>(first + count));
-        std::vector<EndTerms> made(count);
-        ends.read(wanted, made.data());
-        for (std::size_t i = 0; i < count; ++i)
-        {
-          rows[first + i] = home_of(wanted[i]).row;
-          counted[first + i] = made[i].counted;
-          std::copy_n(made[i].terms.data(), width_, all.data() + width_ * (first + i));
-        }
-      },
-      progress);
-    const std::vector<std::int64_t> come = swap_numbers(sorted.counts, ranks);
-    rows_ = trade(rows, sorted.counts, come, ranks);
-    counted_ = trade(counted, sorted.counts, come, ranks);
-    terms_ = trade(all, sorted.counts, come, ranks, width_);
-  }
-
-  std::span<const std::int64_t> places() const noexcept override { return rows_; }
-
-  void read(std::span<const std::size_t> wanted, EndTerms* to) const noexcept override
-  {
-    for (const std::size_t end : wanted)
-    {
-      to->counted = counted_[end];
-      std::copy_n(terms_.data() + width_ * end, width_, to->terms.data());
-      ++to;
-    }
-  }
-
-private:
-  std::size_t width_;
-  std::vector<std::int64_t> rows_;
-  std::vector<Counted> counted_;
-  std::vector<double> terms_;
+  std::vector<std::int64_t> rows;
+  std::vector<Counted> counted;
+  std::vector<double> terms;
 };
+
+/// Sends the ends to the ranks of their particles. Collective.
+SentEnds send_ends(const FoundEnds& found, const ContactTerms& terms, Communicator& ranks,
+  const Executor& executor, Progress& progress)
+{
+  const std::vector<ParticleHome> homes = found.homes();
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const auto home_of = [&](std::size_t end)
+  {
+    const std::int64_t place = found.places()[end];
+    return place < 0 ? ParticleHome{} : homes[static_cast<std::size_t>(place)];
+  };
+  const ByRank sorted = sort_by_rank(found.places().size(), size,
+    [&](std::size_t end)
+    {
+      const std::int64_t rank = home_of(end).rank;
+      return rank < 0 ? size : static_cast<std::size_t>(rank);
+    });
+  std::vector<std::int64_t> rows(sorted.places.size());
+  std::vector<Counted> counted(rows.size());
+  std::vector<double> all(terms.count * rows.size());
+  executor.for_each_stretch(
+    rows.size(), 256,
+    [&](std::size_t first, std::size_t count, std::size_t)
+    {
+      const std::vector<std::size_t> wanted(
+        sorted.places.begin() + static_cast<std::ptrdiff_t>(first),
+        sorted.places.begin() + static_cast<std::ptrdiff_t>(first + count));
+      std::vector<EndTerms> made(count);
+      read_ends(found, terms, wanted, made.data());
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        rows[first + i] = home_of(wanted[i]).row;
+        counted[first + i] = made[i].counted;
+        std::copy_n(made[i].terms.data(), terms.count, all.data() + terms.count * (first + i));
+      }
+    },
+    progress);
+  const std::vector<std::int64_t> come = swap_numbers(sorted.counts, ranks);
+  return { trade(rows, sorted.counts, come, ranks), trade(counted, sorted.counts, come, ranks),
+    trade(all, sorted.counts, come, ranks, terms.count) };
+}
 
 std::span<const std::int32_t> integers_in(const Block& block) noexcept
 {
@@ -238,6 +247,39 @@ void add_rattlers(const FoundEnds& found, const FrameView& particles,
 }
 }
 
+Vector3 principal_values(SymmetricTensor tensor) noexcept
+{
+  int power = 0;
+  if (!scale(tensor, power))
+  {
+    return { nan, nan, nan };
+  }
+  const auto& [xx, yy, zz, xy, xz, yz] = tensor;
+  Matrix a = { { { xx, xy, xz }, { xy, yy, yz }, { xz, yz, zz } } };
+  for (int sweep = 0; sweep < 12 && (a[0][1] != 0 || a[0][2] != 0 || a[1][2] != 0); ++sweep)
+  {
+    rotate(a, 0, 1);
+    rotate(a, 0, 2);
+    rotate(a, 1, 2);
+  }
+  Vector3 values = { std::ldexp(a[0][0], power), std::ldexp(a[1][1], power),
+    std::ldexp(a[2][2], power) };
+  std::ranges::sort(values, std::greater<>());
+  return values;
+}
+
+double von_mises(SymmetricTensor tensor) noexcept
+{
+  int power = 0;
+  if (!scale(tensor, power))
+  {
+    return nan;
+  }
+  const auto& [xx, yy, zz, xy, xz, yz] = tensor;
+  const double normal = (xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx);
+  return std::ldexp(std::sqrt(normal / 2 + 3 * (xy * xy + xz * xz + yz * yz)), power);
+}
+
 ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows> inputs,
   const ContactSumsRequest& request, Communicator& ranks, Progress& progress)
 {
@@ -254,14 +296,27 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
       const bool principal = terms.stress && (request.principal_stress || request.von_mises);
       const std::vector<double> radii =
         principal ? radii_of_volumes(particles, request.radius) : std::vector<double>();
-      const auto sum = [&](const EndSource& source)
-      {
-        parts.set_part(0.5, 0.9);
-        return sum_ends(source, particles.rows, terms, request, executor, parts);
-      };
       parts.set_part(0.4, 0.5);
-      ContactSums sums = ranks.size() == 1 ? sum(EndsHere(found, terms))
-                                           : sum(SentEnds(found, terms, ranks, executor, parts));
+      SentEnds sent;
+      EndSource source = { found.places(), [&](std::span<const std::size_t> wanted, EndTerms* to) {
+                            read_ends(found, terms, wanted, to);
+                          } };
+      if (ranks.size() > 1)
+      {
+        sent = send_ends(found, terms, ranks, executor, parts);
+        source = { sent.rows,
+          [&](std::span<const std::size_t> wanted, EndTerms* to)
+          {
+            for (const std::size_t end : wanted)
+            {
+              to->counted = sent.counted[end];
+              std::copy_n(sent.terms.data() + terms.count * end, terms.count, to->terms.data());
+              ++to;
+            }
+          } };
+      }
+      parts.set_part(0.5, 0.9);
+      ContactSums sums = sum_ends(source, particles.rows, terms, request, executor, parts);
       const std::span<const std::int32_t> counts = integers_in(sums.coordination);
       for (std::int64_t row = 0; row < particles.rows; ++row)
       {

@@ -7,7 +7,10 @@
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
+#include <cmath>
 #include <optional>
 
 namespace granular
@@ -15,6 +18,101 @@ namespace granular
 namespace
 {
 constexpr std::size_t rows_of_stretch = 65536;
+
+/// A span of the rows: whether it is known, its size and name.
+struct Part
+{
+  const char* name;
+  std::size_t size; ///< values
+  std::size_t width;
+  bool ContactKinds::*known;
+};
+
+std::array<Part, 7> parts_of(const ContactRows& rows) noexcept
+{
+  return { { { "id1", rows.id1.size(), 1, &ContactKinds::walls },
+    { "ends", rows.ends.size(), 6, &ContactKinds::ends },
+    { "force", rows.force.size(), 3, &ContactKinds::force },
+    { "tangential", rows.tangential.size(), 3, &ContactKinds::tangential },
+    { "torque", rows.torque.size(), 3, &ContactKinds::torque },
+    { "contact_point", rows.contact_point.size(), 3, &ContactKinds::contact_point },
+    { "overlap", rows.overlap.size(), 1, &ContactKinds::overlap } } };
+}
+
+constexpr double largest_usable = 0x1.fffffffffffffp289;
+
+/// Returns true for a number that sums can have: it is finite, and not too large to multiply (below 2^290).
+bool is_usable(double number) noexcept
+{
+  return std::abs(number) <= largest_usable;
+}
+
+bool are_usable(
+  std::span<const double> values, std::size_t first, std::size_t count, std::size_t width) noexcept
+{
+  // by the bits, whose order is that of the numbers, infinities and nan above them: many at once
+  constexpr auto most = std::bit_cast<std::uint64_t>(largest_usable);
+  constexpr std::uint64_t sign = std::uint64_t{ 1 } << 63;
+  std::uint64_t rest = 0;
+  for (std::size_t i = first * width; !values.empty() && i < (first + count) * width; ++i)
+  {
+    rest |= most - (std::bit_cast<std::uint64_t>(values[i]) & ~sign);
+  }
+  return (rest & sign) == 0;
+}
+
+/// Returns what the ranks that have rows know. Throws Error if they differ, or if a span has another size than the rows need.
+/// Collective.
+ContactKinds share_kinds(const ContactRows& rows, Communicator& ranks)
+{
+  return do_together(ranks,
+    [&]
+    {
+      if (rows.id2.size() != rows.count)
+      {
+        throw Error("expected an id2 of each contact, got " + std::to_string(rows.id2.size()) +
+          " for " + std::to_string(rows.count) + " contacts");
+      }
+      const std::array<Part, 7> parts = parts_of(rows);
+      std::array<int, 8> own = { rows.count > 0 ? 1 : 0 };
+      for (std::size_t i = 0; i < parts.size(); ++i)
+      {
+        own[i + 1] = parts[i].size > 0 ? 1 : 0;
+        if (parts[i].size > 0 && parts[i].size != parts[i].width * rows.count)
+        {
+          throw Error("expected " + std::to_string(parts[i].width) + " values a contact in '" +
+            parts[i].name + "', got " + std::to_string(parts[i].size) + " for " +
+            std::to_string(rows.count) + " contacts");
+        }
+      }
+      ContactKinds kinds;
+      bool told = false;
+      for (const std::array<int, 8>& each : gather(ranks, own))
+      {
+        for (std::size_t i = 0; each[0] != 0 && i < parts.size(); ++i)
+        {
+          const bool known = each[i + 1] != 0;
+          if (told && kinds.*parts[i].known != known)
+          {
+            throw Error("expected the same arrays of contacts on all processes, got '" +
+              std::string(parts[i].name) + "' on some");
+          }
+          kinds.*parts[i].known = known;
+        }
+        told = told || each[0] != 0;
+      }
+      kinds.walls = told && !kinds.walls;
+      return kinds;
+    });
+}
+
+/// Returns true if one of some rows is left out, as a number of it is not usable.
+bool is_broken(const ContactRows& rows, std::size_t first, std::size_t count) noexcept
+{
+  return !(are_usable(rows.ends, first, count, 6) && are_usable(rows.force, first, count, 3) &&
+    are_usable(rows.tangential, first, count, 3) && are_usable(rows.torque, first, count, 3) &&
+    are_usable(rows.contact_point, first, count, 3) && are_usable(rows.overlap, first, count, 1));
+}
 
 /// Values of particles that contacts need.
 struct Needs

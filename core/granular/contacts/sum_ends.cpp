@@ -2,7 +2,7 @@
 #include "granular/contacts/sum_ends.h"
 
 #include "granular/common/simd.h"
-#include "granular/geometry/rounded_sums.h"
+#include "granular/geometry/reproducible_sum.h"
 #include "granular/memory/block.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ public:
   EndSums(const EndSource& source, std::int64_t rows, const ContactTerms& terms,
     const ContactSumsRequest& request, const Executor& executor)
     : source_(source)
-    , places_(source.places())
+    , places_(source.places)
     , rows_(static_cast<std::size_t>(rows))
     , terms_(terms)
     , executor_(executor)

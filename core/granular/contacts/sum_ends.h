@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace granular
@@ -141,16 +142,12 @@ private:
 };
 
 /// Ends of contacts.
-class EndSource
+struct EndSource
 {
-public:
-  virtual ~EndSource() = default;
-
-  /// Returns the particles of all ends, or negative numbers.
-  virtual std::span<const std::int64_t> places() const noexcept = 0;
+  std::span<const std::int64_t> places; ///< the particles of all ends, or negative numbers
 
   /// Makes the terms of some ends. May be called from any thread.
-  virtual void read(std::span<const std::size_t> ends, EndTerms* terms) const noexcept = 0;
+  std::function<void(std::span<const std::size_t> ends, EndTerms* terms)> read;
 };
 
 /// Sums the ends of each particle. rows: particles. Memory comes from the pool of the request. Throws Cancelled,

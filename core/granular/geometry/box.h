@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
 
 namespace granular
@@ -88,5 +90,29 @@ void check_bounds(const Box& box);
 
 /// Checks that a box can scale coordinates. Throws Error if it has no volume.
 void check_volume(const Box& box);
+
+/// A region: xlo xhi ylo yhi zlo zhi, closed; an axis with lo > hi is not restricted.
+using Region = std::span<const double, 6>;
+
+/// Returns true if the region restricts an axis.
+inline bool restricts(Region region) noexcept
+{
+  return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
+}
+
+/// Returns true if a point is inside. A coordinate that is no number is in no region that restricts its axis.
+inline bool contains(Region region, const double* point) noexcept
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double lo = region[2 * axis];
+    const double hi = region[2 * axis + 1];
+    if (lo <= hi && !(point[axis] >= lo && point[axis] <= hi))
+    {
+      return false;
+    }
+  }
+  return true;
+}
 }
 #endif

@@ -5,7 +5,7 @@
 #include "granular/columns/column.h"
 #include "granular/frames/frame.h"
 #include "granular/geometry/positions.h"
-#include "granular/memory/block_pool.h"
+#include "granular/memory/block.h"
 
 #include <array>
 #include <cstddef>

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -264,21 +265,17 @@ void exchange_frames(
       from = end;
     }
   };
-  move(
-    [](PathFrame & frame) -> auto& { return frame.points; }, [](const PathFrame&) { return 3; });
-  move(
-    [](PathFrame & frame) -> auto& { return frame.images; },
+  move(std::mem_fn(&PathFrame::points), [](const PathFrame&) { return 3; });
+  move(std::mem_fn(&PathFrame::images),
     [](const PathFrame& frame) { return frame.has_images ? 3 : 0; });
   move(
-    [](PathFrame & frame) -> auto& { return frame.rows; },
-    [](const PathFrame& frame) { return frame.has_rows ? 1 : 0; });
+    std::mem_fn(&PathFrame::rows), [](const PathFrame& frame) { return frame.has_rows ? 1 : 0; });
   for (std::size_t a = 0; !frames.empty() && a < frames.front().arrays.size(); ++a)
   {
     move(
       [a](PathFrame & frame) -> auto& { return frame.arrays[a].words; },
       [a](const PathFrame& frame) { return frame.arrays[a].size; });
   }
-  move(
-    [](PathFrame & frame) -> auto& { return frame.ids; }, [](const PathFrame&) { return 1; });
+  move(std::mem_fn(&PathFrame::ids), [](const PathFrame&) { return 1; });
 }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/paths/id_selection.h"
+#include "granular/paths/path_frame.h"
 
 #include "granular/common/error.h"
 #include "granular/common/words.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "granular/paths/square_displacements.h"
+#include "granular/paths/paths.h"
 
 #include "granular/common/simd.h"
 #include "granular/particles/point_forms.h"

@@ -10,7 +10,6 @@
 #include "private/request/request_task.h"
 
 #include "granular/averages/average.h"
-#include "granular/averages/contact_cells.h"
 #include "granular/averages/time_average.h"
 #include "granular/numbers/number_print.h"
 

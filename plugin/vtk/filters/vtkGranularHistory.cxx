@@ -8,7 +8,7 @@
 #include "granular/parallel/executor.h"
 #include "granular/parallel/trade.h"
 #include "granular/paths/path_frame.h"
-#include "granular/paths/square_displacements.h"
+#include "granular/paths/paths.h"
 #include "granular/paths/statistics.h"
 
 #include "vtkDoubleArray.h"

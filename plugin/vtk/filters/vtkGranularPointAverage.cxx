@@ -6,7 +6,7 @@
 #include "private/request/guard.h"
 #include "private/request/request_task.h"
 
-#include "granular/averages/point_average.h"
+#include "granular/averages/average.h"
 
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"

@@ -4,7 +4,7 @@
 #include "granular/common/shares.h"
 #include "granular/formats/data_file/data_file.h"
 #include "granular/formats/data_file/section_rows.h"
-#include "granular/geometry/region.h"
+#include "granular/geometry/box.h"
 #include "granular/lines/join.h"
 #include "granular/lines/line_columns.h"
 #include "granular/lines/lines.h"

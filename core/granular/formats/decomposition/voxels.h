@@ -6,7 +6,6 @@
 #include "granular/formats/vtk_files/vtk_grid.h"
 #include "granular/grid/subdomains.h"
 #include "granular/memory/block.h"
-#include "granular/memory/block_pool.h"
 #include "granular/parallel/executor.h"
 
 #include <array>

@@ -6,7 +6,6 @@
 #include "granular/common/error.h"
 #include "granular/formats/dump/read/dump_reader.h"
 #include "granular/memory/block.h"
-#include "granular/memory/block_pool.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

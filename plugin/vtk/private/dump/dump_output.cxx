@@ -3,7 +3,7 @@
 
 #include "private/arrays/arrays.h"
 
-#include "granular/geometry/region.h"
+#include "granular/geometry/box.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"

@@ -4,7 +4,7 @@
 #include "private/dump/dump_output.h"
 #include "private/euler/euler_cells.h"
 
-#include "granular/averages/contact_cells.h"
+#include "granular/averages/average.h"
 
 #include "vtkDataArraySelection.h"
 #include "vtkDataObject.h"

@@ -3,11 +3,10 @@
 
 #include "private/dump/dump_input.h"
 
-#include "granular/geometry/region.h"
-#include "granular/memory/block_pool.h"
+#include "granular/geometry/box.h"
+#include "granular/memory/block.h"
 #include "granular/parallel/executor.h"
 #include "granular/parallel/trade.h"
-#include "granular/paths/id_selection.h"
 
 #include "vtkAlgorithm.h"
 

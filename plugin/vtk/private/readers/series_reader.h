@@ -11,7 +11,7 @@
 #include "private/request/request_task.h"
 
 #include "granular/common/progress.h"
-#include "granular/memory/block_pool.h"
+#include "granular/memory/block.h"
 #include "granular/runs/run.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/dump/read/frame_decoder.h"
 
-#include "granular/geometry/region.h"
+#include "granular/geometry/box.h"
 #include "granular/sorting/text_dictionary.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/dump/read/frame_layout.h"
 
-#include "granular/geometry/region.h"
+#include "granular/geometry/box.h"
 
 #include <algorithm>
 #include <string>
