@@ -130,6 +130,35 @@ SentEnds send_ends(const FoundEnds& found, const ContactTerms& terms, Communicat
     trade(all, sorted.counts, come, ranks, terms.count) };
 }
 
+/// Sums the ends of all ranks for the particles of this one. Collective.
+ContactSums sum_all_ends(const FoundEnds& found, const ContactTerms& terms, std::int64_t rows,
+  const ContactSumsRequest& request, Communicator& ranks, const Executor& executor,
+  PartialProgress& parts)
+{
+  parts.set_part(0.4, 0.5);
+  SentEnds sent;
+  EndSource source;
+  source.places = found.places();
+  source.read = [&](std::span<const std::size_t> wanted, EndTerms* to)
+  { read_ends(found, terms, wanted, to); };
+  if (ranks.size() > 1)
+  {
+    sent = send_ends(found, terms, ranks, executor, parts);
+    source.places = sent.rows;
+    source.read = [&](std::span<const std::size_t> wanted, EndTerms* to)
+    {
+      for (const std::size_t end : wanted)
+      {
+        to->counted = sent.counted[end];
+        std::copy_n(sent.terms.data() + terms.count * end, terms.count, to->terms.data());
+        ++to;
+      }
+    };
+  }
+  parts.set_part(0.5, 0.9);
+  return sum_ends(source, rows, terms, request, executor, parts);
+}
+
 std::span<const std::int32_t> integers_in(const Block& block) noexcept
 {
   return { static_cast<const std::int32_t*>(block.data()), block.bytes() / sizeof(std::int32_t) };
@@ -296,27 +325,8 @@ ContactSums sum_contacts(const FrameView& particles, std::span<const ContactRows
       const bool principal = terms.stress && (request.principal_stress || request.von_mises);
       const std::vector<double> radii =
         principal ? radii_of_volumes(particles, request.radius) : std::vector<double>();
-      parts.set_part(0.4, 0.5);
-      SentEnds sent;
-      EndSource source = { found.places(), [&](std::span<const std::size_t> wanted, EndTerms* to) {
-                            read_ends(found, terms, wanted, to);
-                          } };
-      if (ranks.size() > 1)
-      {
-        sent = send_ends(found, terms, ranks, executor, parts);
-        source = { sent.rows,
-          [&](std::span<const std::size_t> wanted, EndTerms* to)
-          {
-            for (const std::size_t end : wanted)
-            {
-              to->counted = sent.counted[end];
-              std::copy_n(sent.terms.data() + terms.count * end, terms.count, to->terms.data());
-              ++to;
-            }
-          } };
-      }
-      parts.set_part(0.5, 0.9);
-      ContactSums sums = sum_ends(source, particles.rows, terms, request, executor, parts);
+      ContactSums sums =
+        sum_all_ends(found, terms, particles.rows, request, ranks, executor, parts);
       const std::span<const std::int32_t> counts = integers_in(sums.coordination);
       for (std::int64_t row = 0; row < particles.rows; ++row)
       {
