@@ -9,7 +9,7 @@
 #include "granular/frames/run_index.h"
 #include "granular/particles/frame_view.h"
 #include "granular/particles/table.h"
-#include "granular/runs/offer.h"
+#include "granular/runs/kind.h"
 
 #include <memory>
 #include <optional>

@@ -3,8 +3,11 @@
 #define granular_runs_kind_h
 
 #include "granular/columns/column.h"
+#include "granular/common/archive.h"
 #include "granular/common/error.h"
+#include "granular/common/pass.h"
 #include "granular/common/progress.h"
+#include "granular/formats/restart/restart_reader.h"
 #include "granular/frames/file_format.h"
 #include "granular/frames/run_index.h"
 #include "granular/grid/cells.h"
@@ -12,11 +15,11 @@
 #include "granular/parallel/communicator.h"
 #include "granular/particles/request.h"
 #include "granular/particles/table.h"
-#include "granular/runs/offer.h"
-#include "granular/runs/run_options.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -25,6 +28,87 @@
 
 namespace granular
 {
+/// Options by which the files of a run are understood. Each is for the kinds that its comment names.
+struct RunOptions
+{
+  RepeatedSteps repeated_steps = RepeatedSteps::Auto; ///< where several files may hold one frame
+  std::string
+    column_names; ///< dumps: columns of binary files that do not name them; blanks or commas between
+  std::string preset;     ///< local: of local_presets, AsNamed, or Automatic as when it is empty
+  std::string column_map; ///< local: see name_columns
+  std::string atom_style; ///< data files: see find_data_columns
+  std::string boundary;   ///< data files: see DataOptions
+  int history_layout = automatic_history; ///< restart files: see make_bond_schema
+  int threads = 1;                        ///< at least 1; changes no result
+
+  /// Returns true if the files tell the same with other options: with another number of threads.
+  bool tell_the_same(RunOptions others) const
+  {
+    others.threads = threads;
+    return *this == others;
+  }
+
+  bool operator==(const RunOptions&) const = default;
+};
+
+/// Writes everything in which ranks that read a frame together must agree, but for the arrays and the piece.
+void pass_form(ArchiveWriter& archive, const Request& request, const RunOptions& options);
+
+/// The kind of rows of a table, which decides how they are written.
+enum class RowKind : std::uint8_t
+{
+  Particles,
+  Lines, ///< contacts and bonds
+  Cells,
+  Subdomains
+};
+
+/// An array that a frame has in its files.
+struct OfferedArray
+{
+  std::string name;
+  ValueType type = ValueType::Float64; ///< as far as known before the rows are read
+  int components = 1;
+  bool is_usual =
+    true; ///< false: read only if asked for by name, such as coordinates that make the points
+  const KnownColumn* known =
+    nullptr;                ///< its unit and meaning; null: not known, or told by another rank
+  std::string columns = {}; ///< that make it: see ColumnSchema::text
+};
+
+template <typename Archive>
+void pass(Archive& archive, typename Archive::template Passed<OfferedArray>& array)
+{
+  archive.text(array.name);
+  archive.number(array.type);
+  archive.number(array.components);
+  archive.number(array.is_usual);
+  archive.text(array.columns);
+}
+
+/// All that the files of a frame tell before its rows are read.
+struct Offer
+{
+  std::array<std::vector<OfferedArray>, 2> tables = {}; ///< the arrays of each
+  std::vector<std::string> columns = {}; ///< of local data: their meaning, see find_columns
+  std::string error = {};                ///< why the meaning cannot be known; empty: it is
+  Where where = {};                      ///< of the error
+  Notices notices = {}; ///< for whoever reads a frame of these columns; they name the first asked
+};
+
+template <typename Archive>
+void pass(Archive& archive, typename Archive::template Passed<Offer>& offer)
+{
+  for (auto& table : offer.tables)
+  {
+    pass(archive, table);
+  }
+  pass(archive, offer.columns);
+  archive.text(offer.error);
+  pass(archive, offer.where);
+  pass(archive, offer.notices);
+}
+
 /// A frame of a run, and how its files are understood.
 struct RunPlace
 {

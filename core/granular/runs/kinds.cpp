@@ -7,6 +7,26 @@
 
 namespace granular
 {
+void pass_form(ArchiveWriter& archive, const Request& request, const RunOptions& options)
+{
+  archive.number(request.coordinates);
+  archive.number(request.points);
+  archive.number(request.single_precision);
+  archive.number(request.point_origin);
+  archive.number(request.sort_by_id);
+  archive.number(request.stride);
+  archive.number(request.region);
+  archive.number(request.periodic_lines);
+  archive.number(request.bonds);
+  archive.number(request.ranges);
+  archive.number(request.pieces);
+  archive.text(options.preset);
+  archive.text(options.column_map);
+  archive.text(options.atom_style);
+  archive.text(options.boundary);
+  archive.number(options.history_layout);
+}
+
 std::span<const Kind* const> kinds() noexcept
 {
   // clang-format off: the rows are made

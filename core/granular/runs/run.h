@@ -6,8 +6,6 @@
 #include "granular/frames/run_index.h"
 #include "granular/parallel/communicator.h"
 #include "granular/runs/kind.h"
-#include "granular/runs/offer.h"
-#include "granular/runs/run_options.h"
 
 #include <cstddef>
 #include <map>

@@ -4,8 +4,7 @@
 
 #include "granular/columns/column.h"
 #include "granular/common/error.h"
-#include "granular/runs/offer.h"
-#include "granular/runs/run_options.h"
+#include "granular/runs/kind.h"
 
 #include "vtkNew.h"
 

@@ -3,7 +3,7 @@
 #define vtkGranularDumpOutput_h
 
 #include "granular/formats/dump/read/dump_reader.h"
-#include "granular/runs/run_options.h"
+#include "granular/runs/kind.h"
 
 #include <memory>
 #include <string>
