@@ -18,6 +18,7 @@ import tomllib
 TABLE = "core/granular/runs/options.toml"
 WIDTH = 132
 SHARED = re.compile(r'<Shared name="(?P<name>[A-Za-z]+)"(?: of="(?P<of>[A-Za-z]+)")?(?:/>|>(?P<inside>.*?)</Shared>)', re.DOTALL)
+GROUP_OR_PROPERTY = re.compile(r'<ProxyGroup name="(?P<group>\w+)"|<\w+VectorProperty name="(?P<name>\w+)"(?=(?P<rest>[^>]*))')
 
 XML_TAGS = {"text": "String", "names": "String", "choice": "Int", "flag": "Int", "count": "Int", "threads": "Int",
             "number": "Double", "point": "Double", "region": "Double"}
@@ -96,20 +97,14 @@ def python_tables(table):
 def xml_property(option):
     tag = XML_TAGS[option["type"]]
     kind = "Int" if "entries" in option else tag
-    name = option["property"]
     default = XML_DEFAULTS.get(option["type"], option["default"])
     if option["choices"] or "entries" in option:
         default = option.get("default_value", 0)
     elif "strings" in option:
         default = option["strings"][0]
     default = default if isinstance(default, str) else f"{default:g}"
-    count = {"point": 3, "region": 6}.get(option["type"], 1)
-    attributes = [f'name="{name}"', f'command="Set{name}"', f'number_of_elements="{count}"', f'default_values="{default}"',
-                  'animateable="0"']
-    if option.get("advanced"):
-        attributes.append('panel_visibility="advanced"')
-    head = f"      <{kind}VectorProperty "
-    lines = [head + ("\n" + " " * len(head)).join(attributes) + ">"]
+    advanced = ' panel_visibility="advanced"' if option.get("advanced") else ""
+    lines = [f'      <{kind}VectorProperty name="{option["property"]}" default_values="{default}"{advanced}>']
     entries = option.get("entries") or ["".join(word.capitalize() for word in choice.split("_")) for choice in option["choices"]]
     if entries:
         values = option.get("values", range(len(entries)))
@@ -128,10 +123,28 @@ def xml_property(option):
     return [*lines, "        <Documentation>", *text, "        </Documentation>", f"      </{kind}VectorProperty>"]
 
 
+def complete(text):
+    """The text with the attributes that a property with default_values leaves out: if it has no number_of_elements, this is the number of
+    its defaults (of a text 1), its command is Set and its name unless it gives one, and sources and filters do not animate it."""
+    group = ""
+
+    def completed(match):
+        nonlocal group
+        group = match["group"] or group
+        default = re.search(r'\bdefault_values="([^"]*)"', match["rest"] or "")
+        if not default or "number_of_elements=" in match["rest"]:
+            return match.group()
+        count = 1 if match.group().startswith("<String") else len(default[1].split())
+        return "".join([match.group(), f' number_of_elements="{count}"',
+                        f' command="Set{match["name"]}"' if " command=" not in match["rest"] else "",
+                        ' animateable="0"' if group.endswith(("sources", "filters")) else ""])
+    return GROUP_OR_PROPERTY.sub(completed, text)
+
+
 def expand(root, text, table=None):
     """The text with each <Shared name="X" of="Y">inside</Shared> replaced: by the property of an option, with the name Options by all those
     of the base Y, or else by xml/shared/X.xml, with Y for @Of@, y for @of@ and inside for @inside@; on as many lines, so that complaints name
-    the line of the stand-in."""
+    the line of the stand-in; and completed."""
     table = table or load(root)
     options = {option["property"]: option for option in table["option"]}
 
@@ -140,8 +153,8 @@ def expand(root, text, table=None):
         shown = [option for option in options.values() if option.get("base") == of] if name == "Options" else [options[name]] if name in options else []
         part = "\n".join(line for option in shown for line in xml_property(option)) or read(root, f"xml/shared/{name}.xml")
         part = part.replace("@Of@", of).replace("@of@", of.lower()).replace("@inside@", inside)
-        return expand(root, part, table).replace("\n", " ") + "\n" * match.group().count("\n")
-    made = SHARED.sub(shared, text)
+        return SHARED.sub(shared, part).replace("\n", " ") + "\n" * match.group().count("\n")
+    made = complete(SHARED.sub(shared, text))
     if re.search("</?Shared", made):
         raise SystemExit(f"expected <Shared name=\"X\" of=\"Y\"/>, got {made[made.index('<Shared'):][:60]}")
     return made

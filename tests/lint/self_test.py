@@ -403,6 +403,16 @@ class vtkGranularA : public vtkPolyDataAlgorithm
         self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)),
                          ["xml/a.xml:7", "xml/a.xml:8", "xml/a.xml:9"])
 
+    def test_attributes_left_out(self):
+        body = "\n".join(self.property(attributes) for attributes in (
+            'name="Size" default_values="1"', 'name="None" default_values="1"', 'name="None" default_values="1" command="SetSize"',
+            'name="None" default_values="1" number_of_elements="1"'))
+        self.assertEqual(self.check(xml__a_dot_xml=self.xml(body)), ["xml/a.xml:4"])
+        made = reader_options.complete('<ProxyGroup name="sources"><DoubleVectorProperty name="A" default_values="1 -1"/></ProxyGroup>'
+                                       '<ProxyGroup name="writers"><StringVectorProperty name="B" default_values=""/></ProxyGroup>')
+        self.assertIn('name="A" number_of_elements="2" command="SetA" animateable="0" default_values="1 -1"/>', made)
+        self.assertIn('name="B" number_of_elements="1" command="SetB" default_values=""/>', made)
+
     def test_documentation_and_label(self):
         body = "\n".join((self.property('name="a"', "<Documentation>  short  </Documentation>"),
                           self.property('name="b"', ""), self.property('name="c" label="C"'),
