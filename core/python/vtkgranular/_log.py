@@ -97,12 +97,7 @@ class _Table:
         """Returns the rows as a pandas.DataFrame with the same columns."""
         import pandas
 
-        return pandas.DataFrame(dict(self))
-
-    def __eq__(self, other: object) -> bool:
-        return self is other
-
-    __hash__ = object.__hash__
+        return pandas.DataFrame({name: self[name] for name in self})
 
 
 class LogTable(_Table):

@@ -2,6 +2,7 @@
 #include "vtkGranularAverageAlgorithm.h"
 
 #include "private/euler/average_task.h"
+#include "private/request/print.h"
 
 using namespace vtkGranularPrivate;
 
@@ -18,14 +19,5 @@ vtkGranularAverageAlgorithm::~vtkGranularAverageAlgorithm()
   this->ArraySelection->Delete();
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularAverageAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "KernelWidth: " << this->KernelWidth << "\n";
-  os << indent << "VelocityArray: " << this->VelocityArray << "\n";
-  os << indent << "MassArray: " << this->MassArray << "\n";
-  os << indent << "RadiusArray: " << this->RadiusArray << "\n";
-  os << indent << "ArraySelection:\n";
-  this->ArraySelection->PrintSelf(os, indent.GetNextIndent());
-}
+vtkGranularPrintMacro(
+  vtkGranularAverageAlgorithm, KernelWidth, VelocityArray, MassArray, RadiusArray, ArraySelection);

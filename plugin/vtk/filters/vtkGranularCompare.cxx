@@ -6,6 +6,7 @@
 #include "private/local/local_rows.h"
 #include "private/paths/compared_frames.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/request/request_task.h"
 
 #include "granular/averages/particle_loader.h"
@@ -442,6 +443,8 @@ private:
 };
 
 vtkGranularExecuteMacro(vtkGranularCompare);
+vtkGranularOutputMacro(vtkGranularCompare, GetOutput, vtkPolyData, 0);
+vtkGranularOutputMacro(vtkGranularCompare, GetLinesOutput, vtkPolyData, 1);
 
 //------------------------------------------------------------------------------
 vtkGranularCompare::vtkGranularCompare()
@@ -453,24 +456,4 @@ vtkGranularCompare::vtkGranularCompare()
 //------------------------------------------------------------------------------
 vtkGranularCompare::~vtkGranularCompare() = default;
 
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularCompare::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularCompare::GetLinesOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularCompare::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Reference: " << this->Reference << "\n";
-  os << indent << "ReferenceTime: " << this->ReferenceTime << "\n";
-  os << indent << "Differences: " << this->Differences << "\n";
-  os << indent << "MassArray: " << this->MassArray << "\n";
-}
+vtkGranularPrintMacro(vtkGranularCompare, Reference, ReferenceTime, Differences, MassArray);

@@ -5,6 +5,7 @@
 #include "private/arrays/made_arrays.h"
 #include "private/contacts/contact_input.h"
 #include "private/dump/dump_input.h"
+#include "private/request/print.h"
 #include "private/request/request_task.h"
 
 #include "granular/contacts/contact_sums.h"
@@ -321,6 +322,8 @@ private:
 };
 
 vtkGranularExecuteMacro(vtkGranularContactSums);
+vtkGranularOutputMacro(vtkGranularContactSums, GetOutput, vtkPolyData, 0);
+vtkGranularOutputMacro(vtkGranularContactSums, GetLinesOutput, vtkPolyData, 1);
 
 //------------------------------------------------------------------------------
 vtkGranularContactSums::vtkGranularContactSums()
@@ -336,28 +339,5 @@ vtkGranularContactSums::~vtkGranularContactSums()
   this->ArraySelection->Delete();
 }
 
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularContactSums::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularContactSums::GetLinesOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularContactSums::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "LeverArm: " << this->LeverArm << "\n";
-  os << indent << "MinimumForce: " << this->MinimumForce << "\n";
-  os << indent << "MinimumOverlap: " << this->MinimumOverlap << "\n";
-  os << indent << "RattlerContacts: " << this->RattlerContacts << "\n";
-  os << indent << "FrictionCoefficient: " << this->FrictionCoefficient << "\n";
-  os << indent << "RadiusArray: " << this->RadiusArray << "\n";
-  os << indent << "ArraySelection:\n";
-  this->ArraySelection->PrintSelf(os, indent.GetNextIndent());
-}
+vtkGranularPrintMacro(vtkGranularContactSums, LeverArm, MinimumForce, MinimumOverlap,
+  RattlerContacts, FrictionCoefficient, RadiusArray, ArraySelection);

@@ -4,6 +4,7 @@
 #include "private/arrays/arrays.h"
 #include "private/decomposition/voxels.h"
 #include "private/dump/dump_input.h"
+#include "private/request/print.h"
 #include "private/request/request_task.h"
 
 #include "granular/grid/process_grid.h"
@@ -13,9 +14,11 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -194,7 +197,7 @@ private:
     data->PassData(this->GetInput(0)->GetFieldData());
     data->AddArray(MakeDoubles(
       "imbalance", { granular::imbalance_of(this->Found.subdomains, this->Processes) }));
-    data->AddArray(MakeInteger("outside", this->Outside));
+    data->AddArray(ArrayOf<vtkTypeInt64Array>("outside", std::array{ this->Outside }));
     this->Tell(this->Outside > 0, "outside",
       std::to_string(this->Outside) + " particles are outside of all subdomains, and in none");
   }
@@ -232,10 +235,4 @@ int vtkGranularDecomposition::RequestUpdateExtent(
   return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularDecomposition::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Mode: " << this->Mode << "\n";
-  os << indent << "ProcessArray: " << this->ProcessArray << "\n";
-}
+vtkGranularPrintMacro(vtkGranularDecomposition, Mode, ProcessArray);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularDecompositionAlgorithm.h"
 
+#include "private/request/print.h"
+#include "private/request/request_task.h"
+
 #include "granular/grid/process_grid.h"
 
 #include "vtkUnstructuredGrid.h"
@@ -43,29 +46,14 @@ int vtkGranularDecompositionAlgorithm::GetNumberOfCuts(int axis)
   return axis >= 0 && axis < 3 ? static_cast<int>(this->Cuts[axis].size()) : 0;
 }
 
-//------------------------------------------------------------------------------
-vtkUnstructuredGrid* vtkGranularDecompositionAlgorithm::GetOutput()
-{
-  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
-}
+vtkGranularOutputMacro(vtkGranularDecompositionAlgorithm, GetOutput, vtkUnstructuredGrid, 0);
 
 //------------------------------------------------------------------------------
 void vtkGranularDecompositionAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&](const char* name, const auto& values)
-  {
-    os << indent << name << ":";
-    for (const auto& value : values)
-    {
-      os << " " << value;
-    }
-    os << "\n";
-  };
-  print("Bounds", this->Bounds);
-  os << indent << "NumberOfProcesses: " << this->NumberOfProcesses << "\n";
-  print("ProcessorGrid", this->ProcessorGrid);
-  print("XCuts", this->Cuts[0]);
-  print("YCuts", this->Cuts[1]);
-  print("ZCuts", this->Cuts[2]);
+  const auto& [x, y, z] = this->Cuts;
+  vtkGranularPrivate::PrintProperties(os, indent,
+    "Bounds, NumberOfProcesses, ProcessorGrid, XCuts, YCuts, ZCuts", this->Bounds,
+    this->NumberOfProcesses, this->ProcessorGrid, x, y, z);
 }

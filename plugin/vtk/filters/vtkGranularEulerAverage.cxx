@@ -6,6 +6,7 @@
 #include "private/euler/average_task.h"
 #include "private/euler/euler_cells.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/request/processes.h"
 #include "private/request/request_task.h"
 
@@ -13,14 +14,12 @@
 #include "granular/averages/time_average.h"
 #include "granular/numbers/number_print.h"
 
-#include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -247,16 +246,9 @@ private:
 int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  constexpr const char* types[] = { "vtkPolyData", "vtkImageData", "vtkTable" };
-  const char* const type = types[this->OutputType];
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (!output || !output->IsA(type))
-  {
-    info->Set(
-      vtkDataObject::DATA_OBJECT(), vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(type)));
-  }
-  return 1;
+  constexpr int types[] = { VTK_POLY_DATA, VTK_IMAGE_DATA, VTK_TABLE };
+  return SetOutputDataObject(types[this->OutputType], outputVector->GetInformationObject(0)) ? 1
+                                                                                             : 0;
 }
 
 namespace
@@ -328,29 +320,5 @@ void vtkGranularEulerAverage::Execute(
   Task(this, request, inputVector, outputVector).Run();
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularEulerAverage::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  const auto print = [&](const char* name, const auto& values)
-  {
-    os << indent << name << ":";
-    for (const auto& value : values)
-    {
-      os << " " << value;
-    }
-    os << "\n";
-  };
-  os << indent << "OutputType: " << this->OutputType << "\n";
-  os << indent << "CellsBy: " << this->CellsBy << "\n";
-  print("CellCounts", this->CellCounts);
-  print("CellSize", this->CellSize);
-  os << indent << "CellSizeRelative: " << this->CellSizeRelative << "\n";
-  print("Bounds", this->Bounds);
-  os << indent << "ProfileAxis: " << this->ProfileAxis << "\n";
-  os << indent << "Weights: " << this->Weights << "\n";
-  os << indent << "KernelBounds: " << this->KernelBounds << "\n";
-  os << indent << "Periodic: " << this->Periodic << "\n";
-  os << indent << "StressArray: " << this->StressArray << "\n";
-  os << indent << "TimeAverage: " << (this->TimeAverage ? "On" : "Off") << "\n";
-}
+vtkGranularPrintMacro(vtkGranularEulerAverage, OutputType, CellsBy, CellCounts, CellSize,
+  CellSizeRelative, Bounds, ProfileAxis, Weights, KernelBounds, Periodic, StressArray, TimeAverage);

@@ -3,6 +3,7 @@
 
 #include "private/arrays/arrays.h"
 #include "private/paths/path_task.h"
+#include "private/request/print.h"
 
 #include "granular/common/words.h"
 #include "granular/parallel/executor.h"
@@ -337,6 +338,7 @@ private:
 };
 
 vtkGranularExecuteMacro(vtkGranularHistory);
+vtkGranularOutputMacro(vtkGranularHistory, GetOutput, vtkTable, 0);
 
 //------------------------------------------------------------------------------
 vtkGranularHistory::vtkGranularHistory()
@@ -344,18 +346,4 @@ vtkGranularHistory::vtkGranularHistory()
   this->SetPorts({ Input::Required }, { "vtkTable" });
 }
 
-//------------------------------------------------------------------------------
-vtkTable* vtkGranularHistory::GetOutput()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularHistory::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "OutputType: " << this->OutputType << "\n";
-  os << indent << "Quantiles: " << this->Quantiles << "\n";
-  os << indent << "MeanSquareDisplacement: " << (this->MeanSquareDisplacement ? "On" : "Off")
-     << "\n";
-}
+vtkGranularPrintMacro(vtkGranularHistory, OutputType, Quantiles, MeanSquareDisplacement);

@@ -5,6 +5,7 @@
 #include "private/dump/dump_input.h"
 #include "private/local/lines.h"
 #include "private/local/local_rows.h"
+#include "private/request/print.h"
 #include "private/request/request_task.h"
 
 #include "granular/lines/join.h"
@@ -193,7 +194,20 @@ private:
    */
   std::vector<double> ReadNumbers(const char* name)
   {
-    return this->Rows->ReadNumbers(name, this->Joined.rows, this->Joined.count);
+    if (this->Joined.count == 0)
+    {
+      return {};
+    }
+    std::vector<double> own;
+    const std::span<const double> all = this->Rows->ReadTuples(name, 1, own);
+    std::vector<double> numbers(all.begin(), all.end());
+    if (!this->Joined.rows.empty())
+    {
+      numbers.resize(this->Joined.rows.size());
+      std::ranges::transform(this->Joined.rows, numbers.begin(),
+        [&](std::int64_t row) { return all[static_cast<std::size_t>(row)]; });
+    }
+    return numbers;
   }
 
   void FindElongations()
@@ -361,6 +375,7 @@ private:
 };
 
 vtkGranularExecuteMacro(vtkGranularLocalJoin);
+vtkGranularOutputMacro(vtkGranularLocalJoin, GetOutput, vtkPolyData, 0);
 
 //------------------------------------------------------------------------------
 vtkGranularLocalJoin::vtkGranularLocalJoin()
@@ -368,19 +383,5 @@ vtkGranularLocalJoin::vtkGranularLocalJoin()
   this->SetPorts({ Input::Required, Input::Required }, { "vtkPolyData" });
 }
 
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularLocalJoin::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularLocalJoin::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-  os << indent << "Averages: " << this->Averages << "\n";
-  os << indent << "Differences: " << this->Differences << "\n";
-  os << indent << "EquilibriumLengthArray: " << this->EquilibriumLengthArray << "\n";
-  os << indent << "EquilibriumLength: " << this->EquilibriumLength << "\n";
-}
+vtkGranularPrintMacro(vtkGranularLocalJoin, PeriodicLines, Averages, Differences,
+  EquilibriumLengthArray, EquilibriumLength);

@@ -4,6 +4,7 @@
 #include "private/euler/average_task.h"
 #include "private/euler/euler_cells.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/request/request_task.h"
 
 #include "granular/averages/average.h"
@@ -125,14 +126,10 @@ int vtkGranularPointAverage::RequestDataObject(vtkInformation* vtkNotUsed(reques
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* points = vtkDataObject::GetData(inputVector[POINTS_PORT]);
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (points && (!output || !output->IsA(points->GetClassName())))
-  {
-    auto made = vtkSmartPointer<vtkDataObject>::Take(points->NewInstance());
-    info->Set(vtkDataObject::DATA_OBJECT(), made);
-  }
-  return 1;
+  return !points ||
+      SetOutputDataObject(points->GetDataObjectType(), outputVector->GetInformationObject(0))
+    ? 1
+    : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -170,9 +167,4 @@ int vtkGranularPointAverage::RequestUpdateExtent(
   return 1;
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularPointAverage::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Kernel: " << this->Kernel << "\n";
-}
+vtkGranularPrintMacro(vtkGranularPointAverage, Kernel);

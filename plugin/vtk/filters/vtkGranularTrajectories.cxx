@@ -4,6 +4,7 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_output.h"
 #include "private/paths/path_task.h"
+#include "private/request/print.h"
 
 #include "granular/paths/paths.h"
 
@@ -297,6 +298,7 @@ private:
 };
 
 vtkGranularExecuteMacro(vtkGranularTrajectories);
+vtkGranularOutputMacro(vtkGranularTrajectories, GetOutput, vtkPolyData, 0);
 
 //------------------------------------------------------------------------------
 vtkGranularTrajectories::vtkGranularTrajectories()
@@ -308,16 +310,4 @@ vtkGranularTrajectories::vtkGranularTrajectories()
 //------------------------------------------------------------------------------
 vtkGranularTrajectories::~vtkGranularTrajectories() = default;
 
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularTrajectories::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularTrajectories::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-  os << indent << "Tail: " << this->Tail << "\n";
-}
+vtkGranularPrintMacro(vtkGranularTrajectories, PeriodicLines, Tail);

@@ -4,6 +4,7 @@
 #include "private/arrays/arrays.h"
 #include "private/dump/dump_input.h"
 #include "private/dump/dump_output.h"
+#include "private/request/print.h"
 #include "private/request/request_task.h"
 
 #include "granular/common/error.h"
@@ -206,6 +207,7 @@ private:
 };
 
 vtkGranularExecuteMacro(vtkGranularPackingSource, true);
+vtkGranularOutputMacro(vtkGranularPackingSource, GetOutput, vtkPolyData, PARTICLES);
 
 //------------------------------------------------------------------------------
 vtkGranularPackingSource::vtkGranularPackingSource()
@@ -217,31 +219,6 @@ vtkGranularPackingSource::vtkGranularPackingSource()
 //------------------------------------------------------------------------------
 vtkGranularPackingSource::~vtkGranularPackingSource() = default;
 
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularPackingSource::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(PARTICLES));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPackingSource::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  const auto numbers = [&](const char* name, const double* values)
-  { os << indent << name << ": " << values[0] << " " << values[1] << " " << values[2] << "\n"; };
-  os << indent << "Arrangement: " << this->Arrangement << "\n";
-  os << indent << "NumberOfGrains: " << this->NumberOfGrains << "\n";
-  numbers("BoxOrigin", this->BoxOrigin);
-  numbers("BoxLengths", this->BoxLengths);
-  numbers("BoxTilts", this->BoxTilts);
-  os << indent << "Boundary: " << this->Boundary << "\n";
-  os << indent << "Radii: " << this->Radii << "\n";
-  os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "SecondRadius: " << this->SecondRadius << "\n";
-  os << indent << "SecondShare: " << this->SecondShare << "\n";
-  os << indent << "SolidFraction: " << this->SolidFraction << "\n";
-  os << indent << "Spacing: " << this->Spacing << "\n";
-  os << indent << "BondFactor: " << this->BondFactor << "\n";
-  os << indent << "Speed: " << this->Speed << "\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-}
+vtkGranularPrintMacro(vtkGranularPackingSource, Arrangement, NumberOfGrains, BoxOrigin, BoxLengths,
+  BoxTilts, Boundary, Radii, Radius, SecondRadius, SecondShare, SolidFraction, Spacing, BondFactor,
+  Speed, Seed);

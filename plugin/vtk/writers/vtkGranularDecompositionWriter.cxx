@@ -3,6 +3,7 @@
 
 #include "private/decomposition/voxels.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/writing/writer.h"
 
 #include "granular/formats/decomposition/decomposition_text.h"
@@ -99,18 +100,7 @@ private:
   granular::Decomposition All; ///< until they are gathered those of this process
 };
 
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Dialect: " << this->Dialect << "\n";
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionWriter::SetDialect(int dialect)
-{
-  this->SetChoice("Dialect", this->Dialect, dialect, { "INL", "PUBLIC" });
-}
+vtkGranularPrintMacro(vtkGranularDecompositionWriter, Dialect);
 
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularDecompositionWriter::OpenFile(Internals& internals)

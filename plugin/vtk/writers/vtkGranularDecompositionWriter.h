@@ -41,7 +41,7 @@ public:
    * rectilinear grid of LIGGGHTS-PUBLIC, byte for byte: coordinates with six decimals, no arrays, legacy text only; the
    * subdomains must form a grid. Without a `*` in the name, several timesteps go into one file.
    */
-  void SetDialect(int dialect);
+  vtkGranularSetChoiceMacro(Dialect, "INL", "PUBLIC");
   vtkGetMacro(Dialect, int);
   ///@}
 

@@ -2,6 +2,7 @@
 #include "vtkGranularDumpWriter.h"
 
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/writing/writer.h"
 
 #include "vtkObjectFactory.h"
@@ -57,41 +58,8 @@ std::unique_ptr<RowsInput> TakeParticles(vtkDataObject* input, const granular::W
 }
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularDumpWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Style: " << this->Style << "\n";
-  os << indent << "Dialect: " << this->Dialect << "\n";
-  os << indent << "Scaled: " << this->Scaled << "\n";
-  os << indent << "Image: " << this->Image << "\n";
-  os << indent << "Columns: " << this->Columns << "\n";
-  os << indent << "NumberFormat: " << this->NumberFormat << "\n";
-  os << indent << "SortById: " << this->SortById << "\n";
-  os << indent << "WriteUnits: " << this->WriteUnits << "\n";
-  os << indent << "WriteTime: " << this->WriteTime << "\n";
-  const auto print = [&](const char* name, const double* first, int count)
-  {
-    os << indent << name << ":";
-    std::for_each(first, first + count, [&](double value) { os << " " << value; });
-    os << "\n";
-  };
-  print("BoxOrigin", this->BoxOrigin, 3);
-  print("BoxVectors", this->BoxVectors, 9);
-  os << indent << "Boundary: " << this->Boundary << "\n";
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDumpWriter::SetStyle(int style)
-{
-  this->SetChoice("Style", this->Style, style, { "Atom", "Custom" });
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularDumpWriter::SetDialect(int dialect)
-{
-  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS", "Automatic" });
-}
+vtkGranularPrintMacro(vtkGranularDumpWriter, Style, Dialect, Scaled, Image, Columns, NumberFormat,
+  SortById, WriteUnits, WriteTime, BoxOrigin, BoxVectors, Boundary);
 
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularDumpWriter::OpenFile(Internals& internals)

@@ -49,7 +49,7 @@ public:
    * Sets the columns. ATOM: those of `dump atom`: id, type, coordinates and, with Image, the image counts. CUSTOM, the
    * default: see SetColumns.
    */
-  void SetStyle(int style);
+  vtkGranularSetChoiceMacro(Style, "Atom", "Custom");
   vtkGetMacro(Style, int);
   ///@}
 
@@ -61,7 +61,7 @@ public:
    * read from (field data `Dialect`), otherwise LAMMPS; LAMMPS also with WriteUnits or WriteTime, and for a binary file
    * made from text, which then names its columns.
    */
-  void SetDialect(int dialect);
+  vtkGranularSetChoiceMacro(Dialect, "LIGGGHTS", "LAMMPS", "Automatic");
   vtkGetMacro(Dialect, int);
   ///@}
 

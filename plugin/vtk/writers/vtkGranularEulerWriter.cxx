@@ -3,6 +3,7 @@
 
 #include "private/dump/dump_input.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/writing/writer.h"
 
 #include "granular/common/error.h"
@@ -435,18 +436,7 @@ private:
   granular::EulerCells All;
 };
 
-//------------------------------------------------------------------------------
-void vtkGranularEulerWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Dialect: " << this->Dialect << "\n";
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularEulerWriter::SetDialect(int dialect)
-{
-  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "Wide", "Automatic" });
-}
+vtkGranularPrintMacro(vtkGranularEulerWriter, Dialect);
 
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularEulerWriter::OpenFile(Internals& internals)

@@ -46,7 +46,7 @@ public:
    * default: LIGGGHTS if its text has the same values and the centres need no warning, as for cells from a file of LIGGGHTS,
    * otherwise WIDE.
    */
-  void SetDialect(int dialect);
+  vtkGranularSetChoiceMacro(Dialect, "LIGGGHTS", "Wide", "Automatic");
   vtkGetMacro(Dialect, int);
   ///@}
 

@@ -5,6 +5,7 @@
 #include "private/local/lines.h"
 #include "private/local/local_rows.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/writing/writer.h"
 
 #include "granular/common/error.h"
@@ -194,21 +195,7 @@ private:
 };
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularLocalWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Dialect: " << this->Dialect << "\n";
-  os << indent << "Label: " << this->Label << "\n";
-  os << indent << "Columns: " << this->Columns << "\n";
-  os << indent << "NumberFormat: " << this->NumberFormat << "\n";
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularLocalWriter::SetDialect(int dialect)
-{
-  this->SetChoice("Dialect", this->Dialect, dialect, { "LIGGGHTS", "LAMMPS", "Automatic" });
-}
+vtkGranularPrintMacro(vtkGranularLocalWriter, Dialect, Label, Columns, NumberFormat);
 
 //------------------------------------------------------------------------------
 std::unique_ptr<FrameWriter> vtkGranularLocalWriter::OpenFile(Internals& internals)

@@ -44,7 +44,7 @@ public:
    * Sets the program whose bytes are written. LIGGGHTS: the box with six digits. LAMMPS: with 17 digits. AUTOMATIC, the
    * default: the program of the file that the input was read from (field data `Dialect`), otherwise LAMMPS.
    */
-  void SetDialect(int dialect);
+  vtkGranularSetChoiceMacro(Dialect, "LIGGGHTS", "LAMMPS", "Automatic");
   vtkGetMacro(Dialect, int);
   ///@}
 

@@ -142,18 +142,6 @@ void vtkGranularWriter::SetChoice(
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularWriter::SetParallelMode(int mode)
-{
-  this->SetChoice("ParallelMode", this->ParallelMode, mode, { "Gather", "MPI-IO" });
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularWriter::SetDurable(int durable)
-{
-  this->SetChoice("Durable", this->Durable, durable, { "Off", "On", "Automatic" });
-}
-
-//------------------------------------------------------------------------------
 void vtkGranularWriter::SetThreads(int threads)
 {
   if (threads < 0)

@@ -26,6 +26,16 @@
 
 class vtkMultiProcessController;
 
+/**
+ * Defines the function that sets a property to one of some choices, which are numbered from 0; another number is an error and changes
+ * nothing.
+ */
+#define vtkGranularSetChoiceMacro(name, ...)                     \
+  virtual void Set##name(int choice)                             \
+  {                                                              \
+    this->SetChoice(#name, this->name, choice, { __VA_ARGS__ }); \
+  }
+
 namespace vtkGranularPrivate
 {
 class FrameWriter;
@@ -73,7 +83,7 @@ public:
    * after the other and a few rows at a time. MPI_IO: each rank writes its own rows in place, on a file system that all
    * ranks share. The bytes are the same.
    */
-  void SetParallelMode(int mode);
+  vtkGranularSetChoiceMacro(ParallelMode, "Gather", "MPI-IO");
   vtkGetMacro(ParallelMode, int);
   ///@}
 
@@ -84,7 +94,7 @@ public:
    * of the system soon afterwards may leave an empty or incomplete file, a crash of the program may not. DURABLE_AUTOMATIC,
    * the default: on, but off if `*` in the name gives each timestep its file.
    */
-  void SetDurable(int durable);
+  vtkGranularSetChoiceMacro(Durable, "Off", "On", "Automatic");
   vtkGetMacro(Durable, int);
   ///@}
 

@@ -13,7 +13,6 @@
 #include "vtkInformationDoubleVectorKey.h"
 #include "vtkInformationInformationVectorKey.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPoints.h"
@@ -412,25 +411,6 @@ vtkSmartPointer<vtkAbstractArray> MakeDoubles(const char* name, const std::vecto
   array->SetName(name);
   array->SetNumberOfComponents(static_cast<int>(values.size()));
   array->InsertNextTuple(values.data());
-  return array;
-}
-
-vtkSmartPointer<vtkAbstractArray> MakeInteger(const char* name, vtkTypeInt64 value)
-{
-  auto array = vtkSmartPointer<vtkTypeInt64Array>::New();
-  array->SetName(name);
-  array->InsertNextValue(value);
-  return array;
-}
-
-vtkSmartPointer<vtkAbstractArray> MakeIntegers(const char* name, const std::vector<int>& values)
-{
-  auto array = vtkSmartPointer<vtkIntArray>::New();
-  array->SetName(name);
-  for (const int value : values)
-  {
-    array->InsertNextValue(value);
-  }
   return array;
 }
 

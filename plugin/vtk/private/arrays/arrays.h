@@ -56,8 +56,6 @@ vtkSmartPointer<vtkPoints> TakePoints(
  * Returns arrays for field data: one tuple, or one value for a string.
  */
 vtkSmartPointer<vtkAbstractArray> MakeDoubles(const char* name, const std::vector<double>& values);
-vtkSmartPointer<vtkAbstractArray> MakeInteger(const char* name, vtkTypeInt64 value);
-vtkSmartPointer<vtkAbstractArray> MakeIntegers(const char* name, const std::vector<int>& values);
 vtkSmartPointer<vtkAbstractArray> MakeStrings(
   const char* name, const std::vector<std::string>& values);
 

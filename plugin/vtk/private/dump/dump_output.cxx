@@ -10,15 +10,17 @@
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <array>
 #include <cmath>
 
 namespace vtkGranularPrivate
@@ -120,15 +122,10 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
     }
     points->SetPoint(i, position.data());
   }
-  vtkNew<vtkIdList> corners;
-  corners->SetNumberOfIds(8);
-  for (vtkIdType i = 0; i < 8; ++i)
-  {
-    corners->SetId(i, i);
-  }
+  constexpr vtkIdType corners[] = { 0, 1, 2, 3, 4, 5, 6, 7 };
   output->SetPoints(points);
   output->Allocate(1);
-  output->InsertNextCell(VTK_HEXAHEDRON, corners);
+  output->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
   return true;
 }
 
@@ -142,7 +139,7 @@ void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   {
     FillBoxData(data, header.box);
   }
-  data->AddArray(MakeInteger("timestep", header.timestep));
+  data->AddArray(ArrayOf<vtkTypeInt64Array>("timestep", std::array{ header.timestep }));
   if (!header.label.empty())
   {
     data->AddArray(MakeStrings("label", { header.label }));
@@ -215,7 +212,7 @@ void FillFieldData(
   data->AddArray(MakeStrings("Columns", names));
   if (frame.header.digits.size() == names.size())
   {
-    data->AddArray(MakeIntegers("ColumnDigits", frame.header.digits));
+    data->AddArray(ArrayOf<vtkIntArray>("ColumnDigits", frame.header.digits));
   }
 }
 }

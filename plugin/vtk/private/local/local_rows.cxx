@@ -248,29 +248,6 @@ std::vector<std::int64_t> LocalRows::ReadIds(const char* name, granular::Progres
   return ids;
 }
 
-std::vector<double> LocalRows::ReadNumbers(
-  const char* name, const std::vector<std::int64_t>& rows, vtkIdType count)
-{
-  std::vector<double> numbers(static_cast<std::size_t>(count));
-  if (count == 0)
-  {
-    return numbers;
-  }
-  const granular::ValueSource source = granular::component_of(this->See(name), 0);
-  std::array<std::int64_t, 1024> tuples; // at once, which stay in the cache
-  for (std::size_t first = 0; first < numbers.size(); first += tuples.size())
-  {
-    const std::size_t some = std::min(tuples.size(), numbers.size() - first);
-    for (std::size_t i = 0; i < some; ++i)
-    {
-      tuples[i] =
-        this->TupleOf(rows.empty() ? static_cast<std::int64_t>(first + i) : rows[first + i]);
-    }
-    granular::load_numbers(source, { tuples.data(), some }, numbers.data() + first);
-  }
-  return numbers;
-}
-
 void LocalRows::Pass(
   const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const
 {

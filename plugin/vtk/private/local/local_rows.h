@@ -90,12 +90,9 @@ public:
   bool LackPlaces() const;
 
   /**
-   * Returns the ids of the listed rows, or of the first rows if no list is given. Throws Error if the array is missing
-   * or holds other numbers; granular::Cancelled.
+   * Returns the ids of all rows. Throws Error if the array is missing or holds other numbers; granular::Cancelled.
    */
   std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress);
-  std::vector<double> ReadNumbers(
-    const char* name, const std::vector<std::int64_t>& rows, vtkIdType count);
 
   /**
    * Returns an array with so many numbers for each row: in place if they lie so in memory, otherwise in `own`. Throws

@@ -162,4 +162,13 @@ protected:
     Task(this, request, inputs, outputs __VA_OPT__(, ) __VA_ARGS__).Run();                 \
   }
 
+/**
+ * Defines a method of an algorithm that returns the data of an output port.
+ */
+#define vtkGranularOutputMacro(Algorithm, Method, Data, port)   \
+  Data* Algorithm::Method()                                     \
+  {                                                             \
+    return Data::SafeDownCast(this->GetOutputDataObject(port)); \
+  }
+
 #endif
