@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularGrainMapper.h"
 
+#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkFloatArray.h"
 #include "vtkGranularGrainBlocks.h"
 #include "vtkGranularGrainFragments.h"
 #include "vtkGranularGrainShaders.h"
 #include "vtkGranularGrainShapes.h"
-#include "vtkGranularGrainView.h"
 #include "vtkGranularSuperquadrics.h"
+#include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLHelper.h"
 #include "vtkOpenGLIndexBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLRenderer.h"
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLVertexBufferObjectGroup.h"
@@ -30,6 +33,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -98,6 +102,160 @@ struct Radii
 
   vtkDataArray* Given;
   double Same;
+};
+
+constexpr unsigned int ViewportOfOpenGL = 0x0BA2; // the header of GL_VIEWPORT depends on VTK
+
+// Sets numbers: floats, and what they lack. VTK keeps the names' addresses.
+template <std::size_t N>
+void SetNumbers(vtkShaderProgram* program, const char* name, const char* lowName,
+  const std::array<double, N>& numbers)
+{
+  const auto set = [&](const char* each, float(&values)[N])
+  {
+    if constexpr (N == 9)
+    {
+      program->SetUniformMatrix3x3(each, values);
+    }
+    else if constexpr (N == 3)
+    {
+      program->SetUniform3f(each, values);
+    }
+    else
+    {
+      program->SetUniform2f(each, values);
+    }
+  };
+  float high[N];
+  float low[N];
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    high[i] = static_cast<float>(numbers[i]);
+    low[i] = static_cast<float>(numbers[i] - high[i]);
+  }
+  set(name, high);
+  set(lowName, low);
+}
+
+// The way from the coordinates of an actor's data, counted from a place, to the picture. Nothing of it is a float before it is a number of
+// the picture or of the distance from the place.
+class GrainView
+{
+public:
+  GrainView(vtkRenderer* renderer, vtkActor* actor, const std::array<double, 3>& place)
+    : Camera(static_cast<vtkOpenGLCamera*>(renderer->GetActiveCamera()))
+    , Scale(std::cbrt(std::abs(actor->GetMatrix()->Determinant())))
+    , Near(static_cast<float>(-this->Camera->GetClippingRange()[0]))
+  {
+    vtkMatrix4x4* worldToCamera;
+    vtkMatrix3x3* normals;
+    vtkMatrix4x4* worldToPicture;
+    this->Camera->GetKeyMatrices(
+      renderer, worldToCamera, normals, this->CameraToPicture, worldToPicture);
+    vtkMatrix4x4::Multiply4x4(
+      this->Camera->GetModelViewTransformMatrix(), actor->GetMatrix(), this->ToCamera);
+    double moved[4] = { place[0], place[1], place[2], 1.0 };
+    this->ToCamera->MultiplyPoint(moved, moved);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->ToCamera->SetElement(axis, 3, moved[axis]);
+    }
+  }
+
+  vtkGranularHiddenGrains::View ForHidden() const
+  {
+    vtkGranularHiddenGrains::View made;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        made.ToCamera[i][k] = static_cast<float>(this->ToCamera->GetElement(i, k));
+      }
+    }
+    made.Parallel = this->IsParallel();
+    for (int i = 0; i < 2; ++i)
+    {
+      made.Scale[i] = static_cast<float>(this->Zoom(i));
+      made.Middle[i] = static_cast<float>(this->Middle(i));
+    }
+    made.Near = this->Near;
+    made.Radius = static_cast<float>(this->Scale);
+    return made;
+  }
+
+  // Sets what the programs of vtkGranularGrainShaders.h need.
+  void Set(vtkShaderProgram* program, vtkRenderer* renderer) const
+  {
+    std::array<double, 9> toCamera; // column by column
+    for (int i = 0; i < 9; ++i)
+    {
+      toCamera[static_cast<std::size_t>(i)] = this->ToCamera->GetElement(i % 3, i / 3);
+    }
+    SetNumbers(program, "dataVC", "dataVCLow", toCamera);
+    const auto scale = static_cast<float>(this->Scale);
+    const float scales[2] = { scale, static_cast<float>(this->Scale - scale) };
+    program->SetUniform2f("scaleVC", scales);
+    program->SetUniformi("cameraParallel", this->IsParallel() ? 1 : 0);
+    program->SetUniformf("nearVC", this->Near);
+    const vtkGranularHiddenGrains::View picture = this->ForHidden();
+    const float toPicture[4] = { picture.Scale[0], picture.Scale[1], picture.Middle[0],
+      picture.Middle[1] };
+    program->SetUniform4f("pictureVC", toPicture);
+    int viewport[4]; // also of passes that draw into pictures of their own
+    static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())
+      ->GetState()
+      ->vtkglGetIntegerv(ViewportOfOpenGL, viewport);
+    std::array<double, 2> pixelSizes;
+    std::array<double, 2> axisPixel;
+    for (int i = 0; i < 2; ++i)
+    {
+      const auto axis = static_cast<std::size_t>(i);
+      axisPixel[axis] = viewport[i] + 0.5 * viewport[i + 2] * (1.0 + this->Middle(i));
+      pixelSizes[axis] = 2.0 / (viewport[i + 2] * this->Zoom(i));
+    }
+    SetNumbers(program, "axisPixel", "axisPixelLow", axisPixel);
+    SetNumbers(program, "placeVC", "placeVCLow",
+      std::array{ this->Place(0), this->Place(1), this->Place(2) });
+    SetNumbers(program, "pixelVC", "pixelVCLow", pixelSizes);
+    SetNumbers(program, "farVC", "farVCLow", this->FromFar());
+  }
+
+private:
+  bool IsParallel() const { return this->Camera->GetParallelProjection() != 0; }
+
+  // OpenGL's matrices are applied to rows.
+  double Element(int row, int column) const
+  {
+    return this->CameraToPicture->GetElement(column, row);
+  }
+
+  // The picture, from -1 to 1, is Zoom x + Middle of a place at z = -1, or of any place if parallel.
+  double Zoom(int axis) const { return this->Element(axis, axis); }
+
+  double Middle(int axis) const
+  {
+    return this->IsParallel() ? this->Element(axis, 3) : -this->Element(axis, 2);
+  }
+
+  double Place(int axis) const { return this->ToCamera->GetElement(axis, 3); }
+
+  // The picture's z, from -1 to 1, is (a z + b) / (c z + d), and the depth (1 + that) / 2. Returns z of the place from the far plane, where the
+  // picture's z is 1, and the change of the depth with z there, times w = c z + d.
+  std::array<double, 2> FromFar() const
+  {
+    const double a = this->Element(2, 2);
+    const double b = this->Element(2, 3);
+    const double c = this->Element(3, 2);
+    const double d = this->Element(3, 3);
+    const double z = (d - b) / (a - c);
+    return { this->Place(2) - z, 0.5 * (a * d - b * c) / (c * z + d) };
+  }
+
+  vtkOpenGLCamera* Camera;
+  vtkMatrix4x4* CameraToPicture;
+  vtkNew<vtkMatrix4x4> ToCamera;
+  double Scale; // of lengths
+  float Near;   // z of the near plane
 };
 }
 
@@ -205,7 +363,7 @@ void vtkGranularGrainMapper::ReplaceShaderClip(
 void vtkGranularGrainMapper::SetCameraShaderParameters(
   vtkOpenGLHelper& helper, vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkGranularGrainView(renderer, actor, this->From).Set(helper.Program, renderer);
+  GrainView(renderer, actor, this->From).Set(helper.Program, renderer);
   this->SetClips(helper.Program, renderer->GetActiveCamera()->GetModelViewTransformMatrix());
 }
 
@@ -337,7 +495,7 @@ bool vtkGranularGrainMapper::FindSeen(vtkRenderer* renderer, vtkActor* actor)
   grains.Inner = this->Inner->GetPointer(0);
   grains.Count = count;
   const vtkGranularHiddenGrains::Seen& seen =
-    this->Hidden.Find(vtkGranularGrainView(renderer, actor, this->From).ForHidden(), grains);
+    this->Hidden.Find(GrainView(renderer, actor, this->From).ForHidden(), grains);
   if (2 * static_cast<vtkIdType>(seen.Grains.size()) > count)
   {
     return false;
