@@ -14,12 +14,14 @@
 #include "granular/averages/time_average.h"
 #include "granular/numbers/number_print.h"
 
+#include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
@@ -246,9 +248,16 @@ private:
 int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** vtkNotUsed(inputVector), vtkInformationVector* outputVector)
 {
-  constexpr int types[] = { VTK_POLY_DATA, VTK_IMAGE_DATA, VTK_TABLE };
-  return SetOutputDataObject(types[this->OutputType], outputVector->GetInformationObject(0)) ? 1
-                                                                                             : 0;
+  constexpr const char* types[] = { "vtkPolyData", "vtkImageData", "vtkTable" };
+  const char* const type = types[this->OutputType];
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (!output || !output->IsA(type))
+  {
+    info->Set(
+      vtkDataObject::DATA_OBJECT(), vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(type)));
+  }
+  return 1;
 }
 
 namespace

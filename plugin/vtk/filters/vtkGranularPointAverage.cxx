@@ -126,10 +126,14 @@ int vtkGranularPointAverage::RequestDataObject(vtkInformation* vtkNotUsed(reques
   vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* points = vtkDataObject::GetData(inputVector[POINTS_PORT]);
-  return !points ||
-      SetOutputDataObject(points->GetDataObjectType(), outputVector->GetInformationObject(0))
-    ? 1
-    : 0;
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (points && (!output || !output->IsA(points->GetClassName())))
+  {
+    auto made = vtkSmartPointer<vtkDataObject>::Take(points->NewInstance());
+    info->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return 1;
 }
 
 //------------------------------------------------------------------------------
