@@ -183,9 +183,9 @@ protected:
     return status;
   }
 
-  static void tell(const char* text, void* said)
+  static void tell(const granular_error* remark, void* said)
   {
-    static_cast<std::string*>(said)->append(text).append("\n");
+    static_cast<std::string*>(said)->append(remark->message).append("\n");
   }
 
   /// Looks at all frames of a run, which may know the files already, while calls fail.

@@ -39,8 +39,8 @@ Opened open_kind(const std::string& path, granular_kind kind, const char* column
   options.kind = kind;
   options.column_names = column_names;
   options.user = &opened.notices;
-  options.notice = [](const char* text, void* user)
-  { *static_cast<std::string*>(user) += std::string(text) + "\n"; };
+  options.notice = [](const granular_error* remark, void* user)
+  { *static_cast<std::string*>(user) += std::string(remark->message) + "\n"; };
   granular_run* run = nullptr;
   const char* const name = path.c_str();
   opened.error = granular_open(&name, 1, &options, &run) == GRANULAR_OK ? "" : message();
