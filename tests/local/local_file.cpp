@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -16,17 +15,6 @@ std::vector<std::string> piece_files(const std::string& step)
   for (int process = 0; process < 4; ++process)
   {
     paths.push_back(local_file("pieces_" + step + "." + std::to_string(process) + ".dump"));
-  }
-  return paths;
-}
-
-std::vector<std::string> all_pieces()
-{
-  std::vector<std::string> paths;
-  for (const char* step : { "0", "1500", "3000" })
-  {
-    const std::vector<std::string> files = piece_files(step);
-    paths.insert(paths.end(), files.begin(), files.end());
   }
   return paths;
 }
@@ -44,63 +32,10 @@ std::string text_error(const std::string& text)
 }
 }
 
-TEST(LocalFile, RealFrames)
-{
-  LocalRun run({ local_file("contacts.dump") });
-  ASSERT_EQ(run.size(), 5u);
-  const std::int64_t rows[] = { 0, 4, 35, 108, 261 };
-  for (std::size_t frame = 0; frame < 5; ++frame)
-  {
-    EXPECT_EQ(run.step(frame), static_cast<std::int64_t>(frame) * 1000);
-    const granular::Table local = run.read(frame);
-    EXPECT_EQ(local.rows, rows[frame]);
-    EXPECT_EQ(local.lines.count, rows[frame]);
-    EXPECT_EQ(local.header.box.boundary, "pp pp ff");
-    EXPECT_EQ(local.header.counted, "ENTRIES");
-  }
-  LocalRun label({ local_file("label.dump") });
-  EXPECT_EQ(label.read(0, {}, { "index", "id1", "id2" }).header.counted, "CONTACTS");
-}
-
 TEST(LocalFile, WhatItIs)
 {
-  EXPECT_TRUE(granular::is_local_file(local_file("contacts.dump")));
-  EXPECT_TRUE(granular::is_local_file(local_file("chain_bonds.dump")));
-  EXPECT_FALSE(granular::is_local_file(local_file("chain.data")));
-  EXPECT_FALSE(granular::is_local_file(local_file("pieces_3000.2.dump"))) << "any table is like it";
-  EXPECT_FALSE(granular::is_local_file(std::string(GRANULAR_DATA) + "/good/chain.dump"));
-  EXPECT_FALSE(granular::is_local_file("/no/such/file"));
   EXPECT_FALSE(granular::is_local("ITEM: TIMESTEP\n0\n")) << "atoms may be what it counts";
   EXPECT_FALSE(granular::is_local("title\n\n10 atoms\n\nAtoms\n")) << "no bonds";
-}
-
-// Of a run on four processes only the first writes headers, of its own rows.
-TEST(LocalFile, PiecesWithoutHeaders)
-{
-  LocalRun run(all_pieces());
-  ASSERT_EQ(run.size(), 3u);
-  for (std::size_t frame = 0; frame < 3; ++frame)
-  {
-    EXPECT_EQ(run.pieces(frame), 4u);
-    EXPECT_EQ(run.step(frame), static_cast<std::int64_t>(frame) * 1500);
-  }
-  const granular::Table last = run.read(2);
-  std::vector<std::int64_t> ids; // of all files, in the order of the processes
-  for (const std::string& path : piece_files("3000"))
-  {
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);)
-    {
-      const std::vector<std::string_view> words = granular::split_words(line);
-      if (words.size() == 12 && words[0] != "ITEM:")
-      {
-        ids.push_back(std::stoll(std::string(words[6])));
-      }
-    }
-  }
-  const auto got = values<std::int64_t>(last, "id1");
-  EXPECT_EQ(std::vector(got.begin(), got.end()), ids);
-  EXPECT_GT(ids.size(), 20u);
 }
 
 // In any order, and by themselves.
@@ -204,18 +139,6 @@ TEST(LocalFile, PiecesThatGrow)
   EXPECT_EQ(run.read(0).rows, 3);
 }
 
-TEST(LocalFile, WithoutABox)
-{
-  const std::string path =
-    write_text("boxless.dump", local_frame("x1 y1 z1 x2 y2 z2", { "0 0 0 9 0 0" }, ""));
-  LocalRun run({ path });
-  const granular::Table frame = run.read(0);
-  EXPECT_FALSE(frame.header.has_box);
-  EXPECT_EQ(frame.lines.count, 1);
-  EXPECT_EQ(frame.lines.moved, 0);
-  EXPECT_EQ(static_cast<const double*>(frame.lines.lengths.data())[0], 9);
-}
-
 // A label of several words, and one like a section.
 TEST(LocalFile, Labels)
 {
@@ -249,23 +172,4 @@ TEST(LocalFile, BadInput)
     ":4: expected a number of rows >= 0, got '-3'");
   EXPECT_EQ(text_error("1 2\n3 4\nITEM: TIMESTEP\n"),
     ":3: expected rows without a header to the end of the file, got 'ITEM: TIMESTEP'");
-}
-
-// Found when rows are decoded.
-TEST(LocalFile, BadRows)
-{
-  const auto error = [](const std::string& columns, const std::vector<std::string>& rows)
-  {
-    const std::string path = write_text("rows.dump", local_frame(columns, rows));
-    return error_of([&] { LocalRun({ path }).read(0); }).substr(path.size());
-  };
-  EXPECT_EQ(error("id1 id2 c_d", { "1 2 0.5", "1.5 3 1" }),
-    ":11: column 'id1': expected an integer, got '1.5'");
-  EXPECT_EQ(error("id1 id2 c_d", { "1 2 0.5", "1 3" }), ":11: expected 3 words in a row, got 2");
-  EXPECT_EQ(
-    error("id1 id2 c_d", { "1 2 0.5", "1 3 x" }), ":11: column 'c_d': expected a number, got 'x'");
-  EXPECT_EQ(error("x1 y1 z1 x2 y2 z2", { "# 1 1 2 2 2", "1 1 1 2 2 2" }),
-    ":10: column 'x1': expected a number, got '#'");
-  EXPECT_EQ(
-    error("id1 id2 dist", { "1 2 far" }), ":10: column 'dist': expected a number, got 'far'");
 }

@@ -1,110 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of frames of local data, held against the particles of the same run and against plain parsing.
+// Frames of local data, held against the particles of the same run, and what is read in parts; reader.py has every number.
 #include "local_files.h"
 
 #include "../support/many_columns.h"
 #include "../support/thread_ranks.h"
 
-#include "granular/bytes/compression.h"
 #include "granular/formats/dump/grammar/dump_files.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <map>
-#include <set>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
-
-namespace
-{
-using Row = std::vector<double>;
-
-/// The rows of a frame of a text, by the standard library.
-std::vector<Row> plain_rows(const std::string& path, std::int64_t step)
-{
-  std::ifstream file(path);
-  std::vector<Row> rows;
-  bool in_frame = false;
-  for (std::string line; std::getline(file, line);)
-  {
-    if (line == "ITEM: TIMESTEP")
-    {
-      std::getline(file, line);
-      in_frame = std::stoll(line) == step;
-    }
-    std::istringstream words(line);
-    Row row;
-    for (double number = 0; words >> number;)
-    {
-      row.push_back(number);
-    }
-    if (in_frame && row.size() > 3)
-    {
-      rows.push_back(row);
-    }
-  }
-  return rows;
-}
-}
-
-TEST(LocalReader, EveryValueOfARealFile)
-{
-  LocalRun run({ local_file("contacts.dump") });
-  granular::Request request;
-  request.wanted = [](std::string_view, bool) { return true; };
-  run.found();
-  for (std::size_t frame = 1; frame < 5; ++frame)
-  {
-    const std::vector<Row> rows = plain_rows(local_file("contacts.dump"), run.step(frame));
-    const granular::Table local =
-      run.read(frame, request, granular::name_columns(run.columns(), granular::local_presets()[6]));
-    const auto first = values<double>(local, "position1");
-    const auto second = values<double>(local, "position2");
-    const auto force = values<double>(local, "force");
-    ASSERT_EQ(static_cast<std::size_t>(local.rows), rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        EXPECT_EQ(first[3 * i + axis], rows[i][axis]);
-        EXPECT_EQ(second[3 * i + axis], rows[i][3 + axis]);
-        EXPECT_EQ(force[3 * i + axis], rows[i][9 + axis]);
-      }
-      EXPECT_EQ(static_cast<double>(values<std::int64_t>(local, "id1")[i]), rows[i][6]);
-      EXPECT_EQ(static_cast<double>(values<std::int64_t>(local, "id2")[i]), rows[i][7]);
-      EXPECT_EQ(values<std::int32_t>(local, "periodic")[i], rows[i][8]);
-    }
-  }
-}
-
-// Contacts of spheres: centres are closer than the radii reach, and not much.
-TEST(LocalReader, ContactsOverlap)
-{
-  const std::string grains_path = std::string(GRANULAR_DATA) + "/good/grains.dump";
-  std::map<std::int64_t, double> radii;
-  for (const Row& row : plain_rows(grains_path, 2000))
-  {
-    radii[static_cast<std::int64_t>(row[0])] = row[17];
-  }
-  LocalRun run({ local_file("contacts.dump") });
-  const granular::Table local = run.read(2);
-  ASSERT_EQ(local.rows, 35);
-  const auto* lengths = static_cast<const double*>(local.lines.lengths.data());
-  for (std::size_t i = 0; i < 35; ++i)
-  {
-    const double reach = radii.at(values<std::int64_t>(local, "id1")[i]) +
-      radii.at(values<std::int64_t>(local, "id2")[i]);
-    const double overlap = reach - lengths[i];
-    EXPECT_GE(overlap, -1e-7);
-    EXPECT_LT(overlap, 0.1 * reach);
-  }
-}
 
 // A bed at rest: what acts on a particle is its weight and the forces of its contacts, which are opposite on both ends,
 // but for those of the ground.
@@ -166,18 +74,6 @@ TEST(LocalReader, ForcesAddUp)
   EXPECT_GT(inside, 200u);
 }
 
-TEST(LocalReader, ArraysThatAreAskedFor)
-{
-  LocalRun run({ local_file("contacts.dump") });
-  run.found();
-  granular::Request request;
-  request.wanted = [](std::string_view name, bool) { return name == "force"; };
-  const granular::Table local = run.read(3, request);
-  ASSERT_EQ(local.arrays.size(), 1u);
-  EXPECT_EQ(local.arrays[0].info.name, "force");
-  EXPECT_EQ(local.lines.count, 108);
-}
-
 // Threads, pieces and ranks change nothing.
 TEST(LocalReader, PartsAreTheWhole)
 {
@@ -236,23 +132,6 @@ TEST(LocalReader, PartsAreTheWhole)
   }
 }
 
-// Pieces that a process reads alone have the numbers of their rows in the frame, too.
-TEST(LocalReader, FirstRowsOfPieces)
-{
-  LocalRun run({ local_file("contacts.dump") });
-  run.found();
-  granular::Request request;
-  request.periodic_lines = granular::PeriodicLines::Split;
-  std::int64_t before = 0;
-  for (request.piece = 0, request.pieces = 3; request.piece < 3; ++request.piece)
-  {
-    const granular::Table part = run.read(4, request);
-    EXPECT_EQ(part.first_row, before);
-    before += part.rows;
-  }
-  EXPECT_EQ(before, 261);
-}
-
 // Flags that are none: the columns are something else.
 TEST(LocalReader, FlagsThatAreNone)
 {
@@ -265,7 +144,6 @@ TEST(LocalReader, FlagsThatAreNone)
       "their type there, contacts with walls a particle (wall_id in ColumnMap)");
 }
 
-// A large frame, by one thread and by two: the same bits.
 // 0.5 is no integer: the column is kept as doubles, and is what it is there, too.
 TEST(LocalReader, FlagsThatAreNoIntegers)
 {
@@ -338,6 +216,7 @@ TEST(LocalReader, AsManyColumnsAsThereMayBe)
     file + ":9: expected at most 5000 columns, got 5001");
 }
 
+// A large frame, by one thread and by two: the same bits.
 TEST(LocalReader, ThreadsChangeNothing)
 {
   constexpr int count = 300'000;
@@ -395,24 +274,6 @@ TEST(LocalReader, RoundedIdsAreCounted)
   EXPECT_EQ(said({ "-1e+06 2" }), ":1: column 'id1 and id2': 1");
 }
 
-TEST(LocalReader, IdsOfAllSizes)
-{
-  const std::vector<std::string> ids = { "0", "-1", "2147483648", "9007199254740993",
-    "9223372036854775807", "-9223372036854775808" };
-  std::vector<std::string> rows;
-  for (const std::string& id : ids)
-  {
-    rows.push_back(id + " 7");
-  }
-  const std::string path = write_text("ids.dump", local_frame("id1 id2", rows));
-  LocalRun run({ path });
-  const granular::Table frame = run.read(0);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    EXPECT_EQ(std::to_string(values<std::int64_t>(frame, "id1")[i]), ids[i]);
-  }
-}
-
 // The column dist says how far apart the ends are.
 TEST(LocalReader, LinesThatAreNotAsLongAsDistSays)
 {
@@ -427,22 +288,4 @@ TEST(LocalReader, LinesThatAreNotAsLongAsDistSays)
   EXPECT_EQ(said("1 1 1 9.5 1 1 1.5"), "");
   EXPECT_EQ(said("1 1 1 7 1 1 6"),
     ":1: column 'dist': 1 of 2 lines are not as long as the column dist says\n");
-}
-
-TEST(LocalReader, CompressedFilesAreTheSame)
-{
-  std::ifstream file(local_file("contacts.dump"), std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
-  for (const auto compression : { granular::Compression::Gzip, granular::Compression::Zstd })
-  {
-    const std::string packed = granular::compress(text, compression);
-    LocalRun run({ write_text("packed.dump", packed) });
-    ASSERT_EQ(run.size(), 5u);
-    const granular::Table frame = run.read(4);
-    LocalRun plain({ local_file("contacts.dump") });
-    const granular::Table expected = plain.read(4);
-    const auto got = values<double>(frame, "force");
-    const auto wanted = values<double>(expected, "force");
-    EXPECT_TRUE(std::equal(got.begin(), got.end(), wanted.begin(), wanted.end()));
-  }
 }

@@ -7,10 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <filesystem>
-#include <limits>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -223,20 +220,6 @@ TEST(WriteLocal, LostDigitsOfEndsAreTold)
   EXPECT_NE(write(view, format).bytes.find("\n1e+06 1000001\n0 2\n"), std::string::npos);
 }
 
-TEST(WriteLocal, IdsOfTheEndsAreWhole)
-{
-  const Made made;
-  const Written written = write(made.view(), local(Dialect::Liggghts, "BONDS"));
-  EXPECT_EQ(written.error, "");
-  EXPECT_EQ(written.said, "");
-  EXPECT_EQ(written.bytes,
-    "ITEM: TIMESTEP\n5\nITEM: NUMBER OF BONDS\n3\n" + box_lines +
-      "ITEM: BONDS id1 id2 force[1] force[2] force[3] \n"
-      "1000001 1000002 1 2 3 \n"
-      "2147483649 2147483650 4.5 -0.25 1e-07 \n"
-      "9007199254740993 9007199254740990 1.23457e+06 0 7 \n");
-}
-
 TEST(WriteLocal, ColumnsAreArraysByTheirNames)
 {
   const Made made;
@@ -275,19 +258,6 @@ TEST(WriteLocal, NamesOfParticleColumnsMeanNothing)
   format.columns = { "f" };
   EXPECT_NE(
     write(view, format).bytes.find("ITEM: ENTRIES f[1] f[2] f[3] \n1 2 3 \n"), std::string::npos);
-}
-
-TEST(WriteLocal, ColumnsOfTheInputComeFirst)
-{
-  const Made made;
-  FrameView view = made.view();
-  view.columns = { "force[2]", "energy", "id2" };
-  const Written written = write(view, local(Dialect::Liggghts));
-  EXPECT_EQ(written.said, "columns of the input without an array are left out: energy\n");
-  EXPECT_NE(written.bytes.find(
-              "ITEM: ENTRIES force[2] id2 id1 force[1] force[3] \n2 1000002 1000001 1 3 \n"),
-    std::string::npos)
-    << written.bytes;
 }
 
 TEST(WriteLocal, NoBox)
@@ -346,19 +316,6 @@ TEST(WriteLocal, NoRows)
   EXPECT_EQ(write(view, format).error, "expected at least one column, got none");
 }
 
-TEST(WriteLocal, DuplicatesAreLeftOut)
-{
-  const Made made;
-  const unsigned char ghosts[] = { 0, FrameView::duplicate_row, 0 };
-  FrameView view = made.view();
-  view.ghosts = ghosts;
-  DumpFormat format = local(Dialect::Liggghts);
-  format.columns = { "id1" };
-  EXPECT_EQ(write(view, format).bytes,
-    "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n2\n" + box_lines +
-      "ITEM: ENTRIES id1 \n1000001 \n9007199254740993 \n");
-}
-
 /// More rows than a chunk has.
 TEST(WriteLocal, ManyRows)
 {
@@ -391,19 +348,7 @@ TEST(WriteLocal, ManyRows)
 TEST(WriteLocal, WhatRowsAreCalled)
 {
   const Made made;
-  for (const auto& [word, shown] : { std::pair("MY BONDS", "MY BONDS"),
-         std::pair("BONDS ", "BONDS "), std::pair("B\nC", "B\\nC"), std::pair("B\x7f", "B\\x7f"),
-         std::pair("ATOMS", "ATOMS"), std::pair("TIMESTEP", "TIMESTEP"), std::pair("BOX", "BOX") })
-  {
-    const Written written = write(made.view(), local(Dialect::Lammps, word));
-    EXPECT_EQ(written.error,
-      "local: expected one word for what the rows are called, as ENTRIES, CONTACTS or BONDS, and "
-      "not "
-      "that of another section, got '" +
-        std::string(shown) + "'");
-    EXPECT_EQ(written.bytes, "");
-  }
-  // unless one is given: the word of the file that they are from
+  // unless one word is given, that of the file that they are from
   FrameView view = made.view();
   for (const char* of_file : { "ATOMS", "BONDS", "BOND ENTRIES" })
   {

@@ -505,7 +505,8 @@ TEST(LocalWriterErrors, Properties)
   const auto expect = [&](const std::string& text)
   { writer.ExpectError(vtkErrorCode::UnknownError, text); };
   for (const auto& [label, shown] :
-    { std::pair{ "MY BONDS", "MY BONDS" }, { "ATOMS", "ATOMS" }, { "BONDS\n", "BONDS\\n" } })
+    { std::pair{ "MY BONDS", "MY BONDS" }, { "ATOMS", "ATOMS" }, { "TIMESTEP", "TIMESTEP" },
+      { "BOX", "BOX" }, { "BONDS ", "BONDS " }, { "BONDS\n", "BONDS\\n" }, { "B\x7f", "B\\x7f" } })
   {
     writer->SetLabel(label);
     writer.ExpectUnsupported(word + shown + "'");
