@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is said of the files of tests/data/bad, to the letter: this is what a user sees.
 #include "../support/dumps.h"
-
-#include "granular/formats/dump/grammar/dump_files.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 
@@ -67,32 +66,18 @@ std::string path_of(const std::string& file)
 {
   return std::string(GRANULAR_DATA) + "/bad/" + file;
 }
-
-void open(granular::RunIndex& index, const std::string& path)
-{
-  granular::Notices notices;
-  granular::Progress progress;
-  index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
-}
-
-granular::Table read(const granular::RunIndex& index, std::size_t frame)
-{
-  granular::Notices notices;
-  granular::Progress progress;
-  return granular::read_dump(index.pieces(frame), {}, notices, progress);
-}
 }
 
 TEST(BadInput, SaidWhenOpened)
 {
   for (const Bad& bad : when_opened)
   {
-    granular::RunIndex index;
-    EXPECT_EQ(error_of([&] { open(index, path_of(bad.file)); }), path_of(bad.file) + bad.said);
-    EXPECT_EQ(index.size(), 0u);
+    Series run;
+    EXPECT_EQ(error_of([&] { run.update({ path_of(bad.file) }); }), path_of(bad.file) + bad.said);
+    EXPECT_EQ(run.index.size(), 0u);
     // and the same index reads a good file afterwards
-    open(index, std::string(GRANULAR_DATA) + "/good/grains_1000.dump");
-    EXPECT_EQ(read(index, 0).rows, 1200);
+    run.update({ std::string(GRANULAR_DATA) + "/good/grains_1000.dump" });
+    EXPECT_EQ(run.read(0).rows(), 1200);
   }
 }
 
@@ -100,9 +85,9 @@ TEST(BadInput, SaidWhenRead)
 {
   for (const Bad& bad : when_read)
   {
-    granular::RunIndex index;
-    EXPECT_EQ(error_of([&] { open(index, path_of(bad.file)); }), "") << bad.file;
-    EXPECT_EQ(error_of([&] { read(index, 0); }), path_of(bad.file) + bad.said);
+    Series run;
+    EXPECT_EQ(error_of([&] { run.update({ path_of(bad.file) }); }), "") << bad.file;
+    EXPECT_EQ(error_of([&] { run.read(0); }), path_of(bad.file) + bad.said);
   }
 }
 

@@ -4,12 +4,12 @@
 #include "granular/formats/dump/grammar/dump_files.h"
 
 #include "granular/formats/dump/grammar/binary_header.h"
-#include "granular/frames/run_index.h"
 
 #include "../support/binary_dumps.h"
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 #include "../support/quad.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 
@@ -404,13 +404,10 @@ TEST(BinaryDump, TheStepsAreInTheUnitsAndTimesOfTheFile)
     EXPECT_EQ(dump.entry(i).time, *frames[i].time);
   }
   const Folder folder;
-  granular::RunIndex index;
-  granular::Notices notices;
-  granular::Progress progress;
-  index.update({ folder.write("a.bin", binary::write(form, frames).bytes) },
-    { .format = &granular::dump_format() }, notices, progress);
-  EXPECT_EQ(index.times(1), (Doubles{ 0, 0.125, 0.375 }));
-  EXPECT_EQ(lines_of(notices), "");
+  Series run;
+  run.update({ folder.write("a.bin", binary::write(form, frames).bytes) });
+  EXPECT_EQ(run.index.times(1), (Doubles{ 0, 0.125, 0.375 }));
+  EXPECT_EQ(run.said, "");
 }
 
 // ---- chunks ------------------------------------------------------------------------------------
@@ -754,15 +751,11 @@ TEST(BinaryDump, ANumberThatDoesNotFitInALaterPiece)
   const Bytes second =
     binary::write(form, { frame_of(form, columns, 5, { 2, 1, 0, 0, 0, 1, 2.5, 0, 0, 0 }) });
   folder.write("a.1.bin", second.bytes);
-  granular::RunIndex index;
-  granular::Notices notices;
-  granular::Progress progress;
-  index.update({ folder.path("a.0.bin"), folder.path("a.1.bin") },
-    { .format = &granular::dump_format() }, notices, progress);
-  Decoded got;
+  Series run;
+  run.update({ folder.path("a.0.bin"), folder.path("a.1.bin") });
   Request request;
   request.sort_by_id = true;
-  got.frame = read_dump(index.pieces(0), request, got.notices, progress);
+  const Decoded got = run.read(0, request);
   EXPECT_EQ(got.integers("id"), (Integers{ 1, 2, 3, 4 }));
   EXPECT_EQ(got.values("type"), (Doubles{ 2.5, 1, 1, 1 }));
   EXPECT_EQ(got.said(),
@@ -787,29 +780,26 @@ TEST(BinaryDump, NamesThatChange)
   const Folder folder;
   const std::string path = folder.write(
     "a.bin", binary::write(form, { frame_of(form, "", 5, { 1, 2, 0.5, 0.25, 0.75 }) }).bytes);
-  granular::RunIndex index;
-  granular::Progress progress;
-  granular::Notices notices;
-  granular::IndexOptions options = { .format = &granular::dump_format() };
-  index.update({ path }, options, notices, progress);
-  EXPECT_EQ(lines_of(notices),
+  Series run;
+  const auto columns = [&] { return run.entry(0).kind->schema.text(); };
+  run.update({ path });
+  EXPECT_EQ(run.said,
     path +
       ": set ColumnNames if the columns, which the file does not name, are others than id type xs "
       "ys "
       "zs; its first row is 1 2 0.5 0.25 0.75\n");
-  EXPECT_EQ(index.first_piece(0).entry.kind->schema.text(), "id type xs ys zs");
-  options.column_names = { "id", "type", "x", "y" };
-  EXPECT_EQ(error_of([&] { index.update({ path }, options, notices, progress); }),
+  EXPECT_EQ(columns(), "id type xs ys zs");
+  run.options.column_names = { "id", "type", "x", "y" };
+  EXPECT_EQ(error_of([&] { run.update({ path }); }),
     path + "@92: expected 5 names in ColumnNames, got 4; its first row is 1 2 0.5 0.25 0.75");
-  EXPECT_EQ(index.size(), 0u);
-  options.column_names.emplace_back("z");
-  notices.clear();
-  index.update({ path }, options, notices, progress);
-  EXPECT_EQ(lines_of(notices), "");
-  EXPECT_EQ(index.first_piece(0).entry.kind->schema.text(), "id type x y z");
-  options.column_names.clear();
-  index.update({ path }, options, notices, progress);
-  EXPECT_EQ(index.first_piece(0).entry.kind->schema.text(), "id type xs ys zs");
+  EXPECT_EQ(run.index.size(), 0u);
+  run.options.column_names.emplace_back("z");
+  run.update({ path });
+  EXPECT_EQ(run.said, "");
+  EXPECT_EQ(columns(), "id type x y z");
+  run.options.column_names.clear();
+  run.update({ path });
+  EXPECT_EQ(columns(), "id type xs ys zs");
 }
 
 // ---- types -------------------------------------------------------------------------------------

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of more than 2^31 values and files of more than 4 GiB: sparse files, whose holes read as
 // zeros.
-#include "granular/formats/dump/grammar/dump_files.h"
-#include "granular/frames/run_index.h"
-
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
 #include "../support/resident_memory.h"
+#include "../support/series.h"
 #include "../support/sparse_file.h"
 #include "../support/stop.h"
 
@@ -24,19 +22,9 @@ namespace
 using binary::Form;
 using binary::Frame;
 
-granular::IndexOptions names()
+void expect_small_frame(const Series& run, std::size_t number, const Frame& frame)
 {
-  granular::IndexOptions options = { .format = &granular::dump_format() };
-  options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
-    "radius" };
-  return options;
-}
-
-void expect_small_frame(const granular::RunIndex& index, std::size_t number, const Frame& frame)
-{
-  granular::Progress progress;
-  Decoded got;
-  got.frame = read_dump(index.pieces(number), {}, got.notices, progress);
+  const Decoded got = run.read(number);
   EXPECT_EQ(got.said(), "");
   EXPECT_EQ(got.rows(), frame.rows());
   EXPECT_EQ(got.values("id"), frame.values(0));
@@ -69,27 +57,27 @@ TEST(BinaryLarge, TrapMoreValuesThan31Bits)
     ASSERT_GT(12 * rows, std::int64_t{ 1 } << 31);
     ASSERT_GT(large_end, std::int64_t{ 1 } << 34);
 
-    granular::RunIndex index;
-    granular::Notices notices;
-    granular::Progress progress;
-    index.update({ file.path() }, names(), notices, progress);
-    EXPECT_EQ(lines_of(notices), "");
-    ASSERT_EQ(index.size(), 3u);
-    const granular::FrameEntry entry = index.first_piece(1).entry;
+    Series run;
+    run.options.column_names = { "id", "type", "x", "y", "z", "ix", "iy", "iz", "vx", "vy", "vz",
+      "radius" };
+    run.update({ file.path() });
+    EXPECT_EQ(run.said, "");
+    ASSERT_EQ(run.index.size(), 3u);
+    const granular::FrameEntry entry = run.entry(1);
     EXPECT_EQ(entry.rows, rows);
     EXPECT_EQ(entry.offset, large_offset);
     EXPECT_EQ(entry.end, large_end);
-    EXPECT_EQ(index.first_piece(2).entry.offset, large_end);
-    expect_small_frame(index, 0, first);
-    expect_small_frame(index, 2, second);
+    EXPECT_EQ(run.entry(2).offset, large_end);
+    expect_small_frame(run, 0, first);
+    expect_small_frame(run, 2, second);
 
     // it grows, and only what is new is looked at
     const Frame third = binary::particles(form, 3, 2);
     const std::string more = binary::write(form, { third }).bytes;
     file.append(more);
-    index.update({ file.path() }, names(), notices, progress);
-    ASSERT_EQ(index.size(), 4u);
-    expect_small_frame(index, 3, third);
+    run.update({ file.path() });
+    ASSERT_EQ(run.index.size(), 4u);
+    expect_small_frame(run, 3, third);
   }
 }
 
@@ -108,25 +96,23 @@ TEST(BinaryLarge, ReadingTakesMemoryAsItGoes)
     GTEST_SKIP() << "the file system has no sparse files of this size: " << std::strerror(errno);
   }
   ASSERT_GT(5000 * rows, std::int64_t{ 1 } << 31);
-  granular::IndexOptions options = { .format = &granular::dump_format() };
-  options.column_names = { "id", "x", "y", "z" };
+  Series run;
+  run.options.column_names = { "id", "x", "y", "z" };
   for (int i = 5; i <= 5000; ++i)
   {
-    options.column_names.push_back("c" + std::to_string(i));
+    run.options.column_names.push_back("c" + std::to_string(i));
   }
-  granular::RunIndex index;
-  granular::Notices notices;
-  granular::Progress progress;
-  index.update({ file.path() }, options, notices, progress);
-  ASSERT_EQ(index.size(), 1u);
-  EXPECT_EQ(index.first_piece(0).entry.rows, rows);
+  run.update({ file.path() });
+  ASSERT_EQ(run.index.size(), 1u);
+  EXPECT_EQ(run.entry(0).rows, rows);
 
   const std::int64_t before = restart_peak();
   granular::Request request;
   request.stride = 1 << 30;
   request.wanted = [](std::string_view, bool) { return false; };
   Stop stop(3);
-  EXPECT_THROW(read_dump(index.pieces(0), request, notices, stop), granular::Cancelled);
+  granular::Notices notices;
+  EXPECT_THROW(read_dump(run.index.pieces(0), request, notices, stop), granular::Cancelled);
   EXPECT_GT(stop.last, 0);
   EXPECT_LT(stop.last, 0.1);
   EXPECT_LT(peak_bytes() - before, std::int64_t{ 1 } << 28);

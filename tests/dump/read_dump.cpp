@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a frame becomes: arrays, points, rows chosen, rows sorted.
-#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/formats/dump/read/dump_reader.h"
 
 #include "../support/dumps.h"
 #include "../support/frame_content.h"
 #include "../support/hard_case.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 
@@ -742,72 +742,42 @@ TEST(ReadDump, LineNumbersCountBlankLinesAndFramesBefore)
 
 // ---- files that change between index and read --------------------------------------------------
 
-namespace
-{
-std::string plain(std::int64_t step, int rows)
-{
-  std::string text = one_frame("id x y z", "");
-  text.replace(text.find("\n0\n"), 3, "\n" + std::to_string(step) + "\n");
-  text.replace(text.find("ATOMS\n0") + 6, 1, std::to_string(rows));
-  for (int row = 0; row < rows; ++row)
-  {
-    text += std::to_string(row) + " 0.5 0.5 0.5\n";
-  }
-  return text;
-}
-
-std::string read_error(const granular::RunIndex& index, std::size_t frame)
-{
-  return error_of(
-    [&]
-    {
-      granular::Notices notices;
-      granular::Progress progress;
-      granular::read_dump(index.pieces(frame), {}, notices, progress);
-    });
-}
-}
-
 TEST(ReadDump, AFileThatChangedSinceItWasIndexed)
 {
   const Folder folder;
-  const std::string text = plain(0, 3) + plain(100, 3);
+  const std::string text = particles(0, ids_from(0, 3)) + particles(100, ids_from(0, 3));
   const std::string path = folder.write("a.dump", text);
-  granular::RunIndex index;
-  granular::Notices notices;
-  granular::Progress progress;
-  index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
-  EXPECT_EQ(read_error(index, 1), "");
+  Series run;
+  run.update({ path });
+  const auto error = [&] { return error_of([&] { run.read(1); }); };
+  EXPECT_EQ(error(), "");
 
   std::filesystem::resize_file(path, text.size() - 1);
-  EXPECT_EQ(read_error(index, 1),
+  EXPECT_EQ(error(),
     path + ": the file was shortened since it was indexed: expected at least " +
       std::to_string(text.size()) + " bytes, got " + std::to_string(text.size() - 1) +
       "; reload the files");
-  folder.write("a.dump", plain(5, 9) + plain(6, 9));
-  EXPECT_EQ(
-    read_error(index, 1), path + ": the file changed since it was indexed; reload the files");
-  folder.write("a.dump", plain(0, 3) + plain(101, 3));
-  EXPECT_EQ(
-    read_error(index, 1), path + ": the file changed since it was indexed; reload the files");
+  folder.write("a.dump", particles(5, ids_from(0, 9)) + particles(6, ids_from(0, 9)));
+  EXPECT_EQ(error(), path + ": the file changed since it was indexed; reload the files");
+  folder.write("a.dump", particles(0, ids_from(0, 3)) + particles(101, ids_from(0, 3)));
+  EXPECT_EQ(error(), path + ": the file changed since it was indexed; reload the files");
   folder.write("a.dump", std::string(text.size() + 100, '\0'));
-  EXPECT_EQ(
-    read_error(index, 1), path + ": the file changed since it was indexed; reload the files");
+  EXPECT_EQ(error(), path + ": the file changed since it was indexed; reload the files");
   // a line more before it: other rows at the old place
   folder.write("a.dump", "\n" + text);
-  EXPECT_NE(read_error(index, 1), "");
+  EXPECT_NE(error(), "");
   std::filesystem::remove(path);
-  EXPECT_EQ(read_error(index, 1), path + ": cannot open: No such file or directory");
-  folder.write("a.dump", text + plain(200, 1));
-  EXPECT_EQ(read_error(index, 1), "") << "what only grew is fine";
+  EXPECT_EQ(error(), path + ": cannot open: No such file or directory");
+  folder.write("a.dump", text + particles(200, ids_from(0, 1)));
+  EXPECT_EQ(error(), "") << "what only grew is fine";
   // another frame where the ends of the file are as they were
-  const std::string large = plain(0, 1000);
-  folder.write("a.dump", large + plain(100, 3) + large);
-  index.update({ path }, { .format = &granular::dump_format() }, notices, progress);
-  ASSERT_EQ(index.size(), 2u);
-  EXPECT_EQ(read_error(index, 1), "");
-  folder.write("a.dump", large + plain(101, 3) + large);
-  EXPECT_EQ(read_error(index, 1),
+  const std::string large = particles(0, ids_from(0, 1000));
+  folder.write("a.dump", large + particles(100, ids_from(0, 3)) + large);
+  run.update({ path });
+  ASSERT_EQ(run.index.size(), 2u);
+  EXPECT_EQ(error(), "");
+  folder.write("a.dump", large + particles(101, ids_from(0, 3)) + large);
+  EXPECT_EQ(error(),
     path +
       ":1010: the file changed since it was indexed: expected the frame of timestep 100; reload "
       "the "

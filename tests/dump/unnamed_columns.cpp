@@ -2,9 +2,7 @@
 // Plain binaries of dump atom, put together byte by byte: the box tells x y z from xs ys zs.
 #include "../support/binary_dumps.h"
 #include "../support/dumps.h"
-
-#include "granular/formats/dump/grammar/dump_files.h"
-#include "granular/frames/run_index.h"
+#include "../support/series.h"
 
 #include <gtest/gtest.h>
 
@@ -36,35 +34,24 @@ std::string bytes_of(const std::vector<binary::Frame>& frames)
   return binary::write(binary::form("plain, little-endian"), frames).bytes;
 }
 
-/// A run of files with names of their own, and its frames.
-struct Series
+/// A run of files with names of their own.
+Series series(
+  const Folder& folder, const std::string& name, const std::vector<std::string>& contents)
 {
-  Series(const Folder& folder, const std::string& name, const std::vector<std::string>& contents)
+  Files files;
+  for (const std::string& content : contents)
   {
-    std::vector<std::string> files;
-    for (const std::string& content : contents)
-    {
-      files.push_back(folder.write(name + "." + std::to_string(files.size()) + ".bin", content));
-    }
-    index.update(files, { .format = &granular::dump_format() }, notices, progress);
+    files.push_back(folder.write(name + "." + std::to_string(files.size()) + ".bin", content));
   }
+  Series run;
+  run.update(files);
+  return run;
+}
 
-  std::string names(std::size_t frame) const
-  {
-    return index.first_piece(frame).entry.kind->schema.text();
-  }
-
-  Decoded read(std::size_t frame)
-  {
-    Decoded got;
-    got.frame = read_dump(index.pieces(frame), {}, got.notices, progress);
-    return got;
-  }
-
-  granular::RunIndex index;
-  granular::Notices notices;
-  granular::Progress progress;
-};
+std::string columns(const Series& run, std::size_t frame)
+{
+  return run.entry(frame).kind->schema.text();
+}
 
 const std::string absolute = "id type x y z";
 const std::string scaled = "id type xs ys zs";
@@ -134,30 +121,30 @@ TEST(UnnamedColumns, OtherFramesOfTheRunTell)
 {
   const binary::Frame few = frame_of(0, 100, { 0.5, 0.25, 0.75 }, 1);
   const Folder folder;
-  Series file(
+  const Series file = series(
     folder, "file", { bytes_of({ frame_of(0, 100, {}), few, frame_of(0, 100, corners, 2) }) });
-  Series files(folder, "files",
+  const Series files = series(folder, "files",
     { bytes_of({ frame_of(0, 100, {}) }), bytes_of({ few }),
       bytes_of({ frame_of(0, 100, corners, 2) }) });
-  for (Series* run : { &file, &files })
+  for (const Series* run : { &file, &files })
   {
     for (std::size_t frame = 0; frame < 3; ++frame)
     {
-      EXPECT_EQ(run->names(frame), absolute);
+      EXPECT_EQ(columns(*run, frame), absolute);
     }
     EXPECT_EQ(run->read(0).rows(), 0);
     EXPECT_EQ(run->read(1).points(), (Doubles{ 0.5, 0.25, 0.75 }));
   }
   // one file a rank, of which the first has no particles
-  Series pieces(folder, "pieces",
+  const Series pieces = series(folder, "pieces",
     { bytes_of({ frame_of(0, 100, {}) }), bytes_of({ frame_of(0, 100, corners) }),
       bytes_of({ frame_of(0, 100, { 0.5, 0.25, 0.75 }, 0, 4) }) });
   ASSERT_EQ(pieces.index.pieces(0).size(), 3u);
   EXPECT_EQ(pieces.read(0).points(), (Doubles{ 1, 1, 1, 99, 99, 99, 50, 2, 98, 0.5, 0.25, 0.75 }));
   // frames that tell differently tell nothing of others
-  Series mixed(folder, "mixed",
+  const Series mixed = series(folder, "mixed",
     { bytes_of({ few, frame_of(0, 100, corners, 2), frame_of(200, 300, { 0.5, 0.5, 0.5 }, 3) }) });
   EXPECT_NE(error_of([&] { mixed.read(0); }).find("ColumnNames"), std::string::npos);
-  EXPECT_EQ(mixed.names(1), absolute);
-  EXPECT_EQ(mixed.names(2), scaled);
+  EXPECT_EQ(columns(mixed, 1), absolute);
+  EXPECT_EQ(columns(mixed, 2), scaled);
 }

@@ -26,16 +26,6 @@ std::vector<ReferenceBox> boxes(bool tilted)
     { { -0.1, 1.0 / 3, 7 }, { 0.3, 0.7, 8 }, 0.03, -0.01, -1.0 / 70, true, "mm mm ss" } };
 }
 
-Box box_of(const ReferenceBox& box)
-{
-  const Vector3 lo = { box.lo[0], box.lo[1], box.lo[2] };
-  const Vector3 hi = { box.hi[0], box.hi[1], box.hi[2] };
-  Box made =
-    box.tilted ? Box::from_tilted_bounds(lo, hi, box.xy, box.xz, box.yz) : Box::from_bounds(lo, hi);
-  made.boundary = box.boundary;
-  return made;
-}
-
 ReferenceAtoms atoms_of(const MadeRows& rows, bool image)
 {
   return { rows.ids, rows.types, rows.points, image ? rows.images : std::vector<std::int32_t>() };

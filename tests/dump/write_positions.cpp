@@ -33,16 +33,6 @@ std::vector<ReferenceBox> boxes()
     { { -40, 0, 0 }, { 60, 12, 1 }, 47.1, -33.3, 10.9, true } };
 }
 
-Box box_of(const ReferenceBox& box)
-{
-  const Vector3 lo = { box.lo[0], box.lo[1], box.lo[2] };
-  const Vector3 hi = { box.hi[0], box.hi[1], box.hi[2] };
-  Box made =
-    box.tilted ? Box::from_tilted_bounds(lo, hi, box.xy, box.xz, box.yz) : Box::from_bounds(lo, hi);
-  made.boundary = "pp pp pp";
-  return made;
-}
-
 /// H times a vector.
 Exact3 times(const ReferenceBox& box, const Exact3& vector)
 {
@@ -63,17 +53,6 @@ Exact3 sum(const Exact3& a, const Exact3& b)
   return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
 }
 
-Exact3 scaled(const ReferenceBox& box, const Exact3& x)
-{
-  const auto corner = box.corner();
-  const auto h = box.matrix();
-  Exact3 lambda;
-  lambda[2] = (x[2] - corner[2]) / h[2][2];
-  lambda[1] = (x[1] - corner[1] - h[1][2] * lambda[2]) / h[1][1];
-  lambda[0] = (x[0] - corner[0] - h[0][1] * lambda[1] - h[0][2] * lambda[2]) / h[0][0];
-  return lambda;
-}
-
 /// The 12 columns that a point of some form must become.
 std::vector<Exact> exact_columns(
   const ReferenceBox& box, Coordinates coordinates, const Exact3& point, const Exact3& image)
@@ -91,7 +70,7 @@ std::vector<Exact> exact_columns(
     {
       x = sum(point, times(box, { -image[0], -image[1], -image[2] }));
     }
-    xs = scaled(box, x);
+    xs = box.scaled(x);
   }
   const Exact3 xu = coordinates == Coordinates::Unwrapped ? point : sum(x, times(box, image));
   const Exact3 xsu = sum(xs, image);

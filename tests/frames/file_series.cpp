@@ -4,14 +4,14 @@
 
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
+#include "../support/frame_content.h"
 #include "../support/series.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <functional>
+#include <iterator>
 #include <random>
 #include <string>
 #include <string_view>
@@ -44,6 +44,19 @@ void shuffle(Files& files, unsigned seed = 1)
 {
   std::minstd_rand random(seed);
   std::shuffle(files.begin(), files.end(), random);
+}
+
+const Steps tens = { 0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100 };
+
+/// Frames of the same particles at these steps.
+std::string frames_of(const Steps& steps, const Ids& ids)
+{
+  std::string text;
+  for (const std::int64_t step : steps)
+  {
+    text += particles(step, ids);
+  }
+  return text;
 }
 
 /// A frame less the last bytes of its last row: its writer is at work.
@@ -85,6 +98,15 @@ Ids ids_of_pieces(int processes)
     ids.push_back(10 * process + 1);
   }
   return ids;
+}
+
+/// All of every frame, never a part.
+void expect_all_pieces(const Series& run, int processes, const std::string& what = "")
+{
+  for (std::size_t i = 0; i < run.index.size(); ++i)
+  {
+    EXPECT_EQ(run.ids(i), ids_of_pieces(processes)) << what << ", step " << run.steps()[i];
+  }
 }
 }
 
@@ -144,28 +166,19 @@ TEST(FileSeries, NumbersThatGoTogetherAreOneFileAStep)
 TEST(FileSeries, AFewFramesAFile)
 {
   const Folder folder;
-  const auto frames = [](const Steps& steps, std::int64_t id)
-  {
-    std::string text;
-    for (const std::int64_t step : steps)
-    {
-      text += particles(step, { id });
-    }
-    return text;
-  };
   // each begins with the frame that the one before ended with
   Series run;
-  run.update({ folder.write("a.0.dump", frames({ 0, 10, 20 }, 1)),
-    folder.write("a.20.dump", frames({ 20, 30, 40 }, 2)),
-    folder.write("a.40.dump", frames({ 40, 50, 60 }, 3)) });
+  run.update({ folder.write("a.0.dump", frames_of({ 0, 10, 20 }, { 1 })),
+    folder.write("a.20.dump", frames_of({ 20, 30, 40 }, { 2 })),
+    folder.write("a.40.dump", frames_of({ 40, 50, 60 }, { 3 })) });
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20, 30, 40, 50, 60 }));
   EXPECT_EQ(run.said, "");
   EXPECT_EQ(run.names(2), "a.20.dump");
   EXPECT_EQ(run.ids(2), Ids{ 2 });
   EXPECT_EQ(run.ids(4), Ids{ 3 });
   // and steps that interleave
-  run.update({ folder.write("even.dump", frames({ 0, 20, 40 }, 1)),
-    folder.write("odd.dump", frames({ 10, 30, 50 }, 2)) });
+  run.update({ folder.write("even.dump", frames_of({ 0, 20, 40 }, { 1 })),
+    folder.write("odd.dump", frames_of({ 10, 30, 50 }, { 2 })) });
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20, 30, 40, 50 }));
   EXPECT_EQ(run.ids(4), Ids{ 1 });
   EXPECT_EQ(run.ids(5), Ids{ 2 });
@@ -311,15 +324,7 @@ TEST(FileSeries, ARestartRepeatsTheStepItStartsFrom)
 
 TEST(FileSeries, ARestartOfManyFramesAFile)
 {
-  const auto frames = [](std::int64_t first, std::int64_t last, std::int64_t id)
-  {
-    std::string text;
-    for (std::int64_t step = first; step <= last; step += 10)
-    {
-      text += particles(step, { id });
-    }
-    return text;
-  };
+  const Steps before(tens.begin(), tens.begin() + 6);
   for (int number = 0; number < 3; ++number)
   {
     const Folder folder;
@@ -329,8 +334,9 @@ TEST(FileSeries, ARestartOfManyFramesAFile)
     // goes on from the last frame, from an earlier one, from one that the first run did not dump
     for (const std::int64_t from : { 50, 30, 10, 60 })
     {
-      run.update(
-        { folder.write(first, frames(0, 50, 1)), folder.write(second, frames(from, 100, 2)) });
+      const Steps after(tens.begin() + from / 10, tens.end());
+      run.update({ folder.write(first, frames_of(before, { 1 })),
+        folder.write(second, frames_of(after, { 2 })) });
       ASSERT_EQ(run.index.size(), 11u) << from;
       EXPECT_EQ(run.said, "");
       for (std::size_t i = 0; i < 11; ++i)
@@ -372,15 +378,9 @@ TEST(FileSeries, ARunThatBeganAgain)
 {
   // from its first step on, under another number, and has come further; its number is not 0
   const Folder folder;
-  std::string before;
-  std::string after;
-  for (int step = 0; step <= 100; step += 10)
-  {
-    before += step <= 50 ? particles(step, { 1 }) : "";
-    after += particles(step, { 2 });
-  }
   Series run;
-  run.update({ folder.write("run.1.dump", before), folder.write("run.2.dump", after) });
+  run.update({ folder.write("run.1.dump", frames_of(Steps(tens.begin(), tens.begin() + 6), { 1 })),
+    folder.write("run.2.dump", frames_of(tens, { 2 })) });
   ASSERT_EQ(run.index.size(), 11u);
   for (std::size_t i = 0; i < 11; ++i)
   {
@@ -489,31 +489,15 @@ TEST(Pieces, OfManyFramesAFileAreMerged)
   Files files;
   for (const int process : { 3, 0, 2, 1 })
   {
-    std::string text;
-    for (const int step : { 0, 10, 20 })
-    {
-      text += particles(step, ids_from(10 * process, 2));
-    }
-    files.push_back(folder.write("pieces." + std::to_string(process) + ".dump", text));
+    files.push_back(folder.write("pieces." + std::to_string(process) + ".dump",
+      frames_of({ 0, 10, 20 }, ids_from(10 * process, 2))));
   }
   Series run;
   run.update(files);
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
   EXPECT_EQ(run.said, "");
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    EXPECT_EQ(run.ids(i), ids_of_pieces(4));
-    EXPECT_EQ(run.names(i), "pieces.0.dump pieces.1.dump pieces.2.dump pieces.3.dump");
-  }
-}
-
-TEST(Pieces, OfASingleStepAreMerged)
-{
-  const Folder folder;
-  Series run;
-  run.update(write_pieces(folder, "dump.", { 500 }, 4));
-  EXPECT_EQ(run.steps(), Steps{ 500 });
-  EXPECT_EQ(run.ids(0), ids_of_pieces(4));
+  EXPECT_EQ(run.names(1), "pieces.0.dump pieces.1.dump pieces.2.dump pieces.3.dump");
+  expect_all_pieces(run, 4);
 }
 
 TEST(Pieces, MayBeCompressedInPart)
@@ -573,18 +557,12 @@ TEST(Pieces, OfTwoRunsOneAfterTheOther)
   const Folder folder;
   // a restart: step 20 twice, four pieces each
   Files files = write_pieces(folder, "run1.", { 0, 10, 20 }, 4);
-  for (const std::string& file : write_pieces(folder, "run2.", { 20, 30 }, 4))
-  {
-    files.push_back(file);
-  }
+  std::ranges::copy(write_pieces(folder, "run2.", { 20, 30 }, 4), std::back_inserter(files));
   Series run;
   run.update(files);
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20, 30 }));
   EXPECT_EQ(run.names(2), "run2.20.0.dump run2.20.1.dump run2.20.2.dump run2.20.3.dump");
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    EXPECT_EQ(run.ids(i), ids_of_pieces(4)) << i;
-  }
+  expect_all_pieces(run, 4);
 }
 
 TEST(Pieces, OfARestartIntoTheSameFiles)
@@ -593,20 +571,13 @@ TEST(Pieces, OfARestartIntoTheSameFiles)
   Files files;
   for (int process = 0; process < 3; ++process)
   {
-    std::string text;
-    for (const int step : { 0, 10, 20, 10, 20, 30 })
-    {
-      text += particles(step, ids_from(10 * process, 2));
-    }
-    files.push_back(folder.write("d." + std::to_string(process), text));
+    files.push_back(folder.write("d." + std::to_string(process),
+      frames_of({ 0, 10, 20, 10, 20, 30 }, ids_from(10 * process, 2))));
   }
   Series run;
   run.update(files);
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20, 30 }));
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    EXPECT_EQ(run.ids(i), ids_of_pieces(3)) << i;
-  }
+  expect_all_pieces(run, 3);
 }
 
 TEST(Pieces, OfARunThatWasKilledWhileSomeHadWritten)
@@ -624,10 +595,7 @@ TEST(Pieces, OfARunThatWasKilledWhileSomeHadWritten)
   Series run;
   run.update(files);
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20, 30 }));
-  for (std::size_t i = 0; i < run.index.size(); ++i)
-  {
-    EXPECT_EQ(run.ids(i), ids_of_pieces(3)) << "step " << run.steps()[i];
-  }
+  expect_all_pieces(run, 3);
 }
 
 TEST(Pieces, OfARunThatWentOnWithMoreProcesses)
@@ -642,11 +610,8 @@ TEST(Pieces, OfARunThatWentOnWithMoreProcesses)
       (static_cast<std::size_t>(i) < 8 - later ? before : after).push_back(10 * i);
     }
     Files files = write_pieces(folder, "d" + std::to_string(later) + ".", before, 2);
-    for (const std::string& file :
-      write_pieces(folder, "d" + std::to_string(later) + ".", after, 4))
-    {
-      files.push_back(file);
-    }
+    std::ranges::copy(
+      write_pieces(folder, "d" + std::to_string(later) + ".", after, 4), std::back_inserter(files));
     Series run;
     run.update(files);
     // all of a frame, or nothing of it: never a part
@@ -773,14 +738,7 @@ TEST(Pieces, OfADamagedFileOfManyFramesNoPartIsShown)
   // one file a process; that of process 1 lost a frame in the middle, or is damaged altogether
   const Folder folder;
   const auto frames = [](int process, const Steps& steps)
-  {
-    std::string text;
-    for (const std::int64_t step : steps)
-    {
-      text += particles(step, ids_from(10 * process, 2));
-    }
-    return text;
-  };
+  { return frames_of(steps, ids_from(10 * process, 2)); };
   const Steps all = { 0, 10, 20, 30 };
   const std::string lost = frames(1, { 0 }) + less_a_row(frames(1, { 10 })) + frames(1, { 20, 30 });
   for (const std::string& bytes :
@@ -798,11 +756,7 @@ TEST(Pieces, OfADamagedFileOfManyFramesNoPartIsShown)
       continue; // as good
     }
     EXPECT_NE(run.said, "");
-    for (std::size_t i = 0; i < run.index.size(); ++i)
-    {
-      EXPECT_EQ(run.ids(i), ids_of_pieces(3))
-        << "step " << run.steps()[i] << " with d.1 of " << bytes.size() << " bytes";
-    }
+    expect_all_pieces(run, 3, "d.1 of " + std::to_string(bytes.size()) + " bytes");
   }
 }
 
@@ -838,10 +792,7 @@ TEST(Pieces, AStepThatIsBeingWrittenIsLeftOutSilentlyAndFoundLater)
           run.update(files);
           EXPECT_EQ(run.said, "") << what;
           EXPECT_EQ(run.index.size(), steps_before) << what;
-          for (std::size_t i = 0; i < run.index.size(); ++i)
-          {
-            EXPECT_EQ(run.ids(i), ids_of_pieces(processes)) << what << ": step " << steps[i];
-          }
+          expect_all_pieces(run, processes, what);
           files = write_pieces(folder, "d.", steps, processes);
           for (const std::string& file : files)
           {
@@ -877,12 +828,9 @@ TEST(Pieces, AStepOfWhichSomeFilesAreNotThereYet)
         Series run;
         run.update(there);
         EXPECT_EQ(run.index.size(), steps_before);
-        for (std::size_t i = 0; i < run.index.size(); ++i)
-        {
-          EXPECT_EQ(run.ids(i), ids_of_pieces(processes))
-            << processes << " processes, of which " << done << " have files of step "
-            << 10 * steps_before << ": step " << run.steps()[i];
-        }
+        expect_all_pieces(run, processes,
+          std::to_string(done) + " of " + std::to_string(processes) + " have files of step " +
+            std::to_string(10 * steps_before));
         run.update(all);
         EXPECT_EQ(run.steps(), steps);
         EXPECT_EQ(run.said, "");
@@ -938,10 +886,7 @@ TEST(Pieces, OfFilesThatGrowTheLastFrameWaitsForAll)
       run.update(files);
       EXPECT_EQ(run.steps(), process + 1 < processes ? Steps{ 0 } : (Steps{ 0, 10 })) << process;
       EXPECT_EQ(run.said, "") << process;
-      for (std::size_t i = 0; i < run.index.size(); ++i)
-      {
-        EXPECT_EQ(run.ids(i), ids_of_pieces(processes)) << process;
-      }
+      expect_all_pieces(run, processes, std::to_string(process) + " has written");
     }
   }
 }
@@ -950,19 +895,13 @@ TEST(Pieces, ARestartOfWhichSomeAreNotWrittenDoesNotHideTheFirstRun)
 {
   const Folder folder;
   Files files = write_pieces(folder, "run1.", { 0, 10, 20 }, 2);
-  for (const std::string& file : write_pieces(folder, "run2.", { 20 }, 2))
-  {
-    files.push_back(file);
-  }
+  std::ranges::copy(write_pieces(folder, "run2.", { 20 }, 2), std::back_inserter(files));
   fs::resize_file(files.back(), 0);
   Series run;
   run.update(files);
   // step 20 was there before the restart, and is still
   EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
-  for (std::size_t i = 0; i < run.index.size(); ++i)
-  {
-    EXPECT_EQ(run.ids(i), ids_of_pieces(2));
-  }
+  expect_all_pieces(run, 2);
 }
 
 // ---- what the user says ------------------------------------------------------------------------
@@ -1082,48 +1021,21 @@ TEST(Pieces, GiveTheSameAsOneFileWithAllRows)
   whole.update({ folder.write("whole", text(0, rows)) });
   ASSERT_EQ(merged.index.pieces(0).size(), 6u);
 
-  std::vector<granular::Request> requests(10, everything());
-  requests[1].sort_by_id = true;
-  requests[2].stride = 7;
-  requests[3].region = { -1, 0.5, 1, -1, 0, 3 };
-  requests[4].region = { -1, 0.5, 1, -1, 0, 3 };
-  requests[4].stride = 3;
-  requests[4].sort_by_id = true;
-  requests[5].coordinates = granular::Coordinates::Unwrapped;
-  requests[5].point_origin = { 1, 2, 3 };
-  requests[6].coordinates = granular::Coordinates::Scaled;
-  requests[6].sort_by_id = true;
-  requests[7].wanted = [](std::string_view name, bool) { return name == "v"; };
-  requests[7].stride = 11;
-  requests[7].sort_by_id = true;
-  requests[8].stride = 20000; // nothing
-  requests[9].region = { 0, 0, 0, 0, 0, 0 };
+  std::vector<granular::Request> requests = all_requests();
+  requests.push_back(everything());
+  requests.back().coordinates = granular::Coordinates::Unwrapped;
+  requests.back().point_origin = { 1, 2, 3 };
+  requests.push_back(everything());
+  requests.back().stride = 20000; // nothing
+  requests.push_back(everything());
+  requests.back().region = { 0, 0, 0, 0, 0, 0 };
   for (std::size_t i = 0; i < requests.size(); ++i)
   {
     const Decoded a = merged.read(0, requests[i]);
     const Decoded b = whole.read(0, requests[i]);
-    ASSERT_EQ(a.rows(), b.rows()) << i;
-    EXPECT_EQ(a.points(), b.points()) << i;
-    EXPECT_EQ(a.names(), b.names()) << i;
+    EXPECT_EQ(content_of(a.frame).difference(content_of(b.frame)), "") << i;
     EXPECT_EQ(a.said(), b.said()) << i;
-    EXPECT_EQ(a.frame.schema.text(), b.frame.schema.text()) << i;
-    for (const granular::TableArray& array : a.frame.arrays)
-    {
-      const std::string& name = array.info.name;
-      ASSERT_EQ(a.type(name), b.type(name)) << i << name;
-      if (a.type(name) == granular::ValueType::Text)
-      {
-        EXPECT_EQ(a.texts(name), b.texts(name)) << i << name;
-      }
-      else
-      {
-        EXPECT_EQ(a.values(name), b.values(name)) << i << name;
-      }
-    }
   }
-  granular::Request single = requests[4];
-  single.single_precision = true;
-  EXPECT_EQ(merged.read(0, single).single_points(), whole.read(0, single).single_points());
 }
 
 TEST(Pieces, StrideWithoutIdsCountsTheRowsOfAll)
@@ -1249,42 +1161,4 @@ TEST(Pieces, AColumnThatIsWidenedInOneIsInAll)
       ":10: column 'mol': expected an integer, got '6.5'; the column is kept as doubles\n" +
       folder.path("p.1") +
       ":11: column 'type': expected an integer, got '1.25'; the column is kept as doubles\n");
-}
-
-TEST(Pieces, OfTheRealProgram)
-{
-  // what LIGGGHTS wrote with dump pieces_*.%.dump on four processes
-  const std::string good = std::string(GRANULAR_DATA) + "/good/";
-  Files files;
-  for (const char* step : { "2000", "0", "1000" })
-  {
-    for (const char* process : { "3", "1", "0", "2" })
-    {
-      files.push_back(good + "pieces_" + step + "." + process + ".dump");
-    }
-  }
-  Series run;
-  run.update(files);
-  EXPECT_EQ(run.said, "");
-  EXPECT_EQ(run.steps(), (Steps{ 0, 1000, 2000 }));
-  EXPECT_EQ(run.read(0).rows(), 0);
-  for (const std::size_t frame : { 1u, 2u })
-  {
-    granular::Request request;
-    request.sort_by_id = true;
-    const Decoded decoded = run.read(frame, request);
-    EXPECT_EQ(decoded.integers("id"), ids_from(1, 1200));
-    // the same run, in one file
-    Series one;
-    one.update({ good + "grains.dump" });
-    const std::vector<double> expected = one.read(frame, request).points();
-    const std::vector<double> points = decoded.points();
-    ASSERT_EQ(points.size(), expected.size());
-    double worst = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      worst = std::max(worst, std::abs(points[i] - expected[i]));
-    }
-    EXPECT_LT(worst, 1e-6);
-  }
 }

@@ -3,6 +3,7 @@
 // replaced or removed meanwhile.
 #include "granular/frames/run_index.h"
 
+#include "../support/binary_dumps.h"
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
 #include "../support/series.h"
@@ -59,49 +60,22 @@ std::string text_frame(std::int64_t frame, std::int64_t most)
   return text;
 }
 
-template <typename T>
-void put(std::string& bytes, const T& value)
-{
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-/// As LIGGGHTS writes them: int64 timestep and count, box, then a chunk of rows a process.
+/// As LIGGGHTS writes them, with a chunk of rows for each of two processes.
 std::string binary_frame(std::int64_t frame, std::int64_t most)
 {
   const std::int64_t step = frame * step_size;
   const std::int64_t rows = rows_at(frame, most);
-  constexpr std::int32_t columns = 5; // id type x y z
-  constexpr std::int32_t chunks = 2;
-  std::string bytes;
-  put(bytes, step);
-  put(bytes, rows);
-  put(bytes, std::int32_t{ 0 });
-  for (int face = 0; face < 6; ++face)
+  binary::Frame written;
+  written.timestep = step;
+  written.size_one = 5; // id type x y z
+  written.chunks.resize(2);
+  for (std::int64_t id = 1; id <= rows; ++id)
   {
-    put(bytes, std::int32_t{ 0 });
+    std::vector<double>& chunk = written.chunks[id <= rows / 3 ? 0 : 1];
+    chunk.insert(chunk.end(),
+      { static_cast<double>(id), 1, x_of(step, id), -1.5e-3, static_cast<double>(step) });
   }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    put(bytes, 0.0);
-    put(bytes, 1.0);
-  }
-  put(bytes, columns);
-  put(bytes, chunks);
-  std::int64_t id = 1;
-  for (int chunk = 0; chunk < chunks; ++chunk)
-  {
-    const std::int64_t last = chunk + 1 < chunks ? rows / 3 : rows;
-    put(bytes, static_cast<std::int32_t>((last - id + 1) * columns));
-    for (; id <= last; ++id)
-    {
-      for (const double value :
-        { static_cast<double>(id), 1.0, x_of(step, id), -1.5e-3, static_cast<double>(step) })
-      {
-        put(bytes, value);
-      }
-    }
-  }
-  return bytes;
+  return binary::write(binary::form("plain, little-endian"), { written }).bytes;
 }
 
 /// What a frame holds must be what was written at its step, all of it.

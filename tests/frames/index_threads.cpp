@@ -230,6 +230,7 @@ TEST(IndexThreads, CancelledAtAnyReportThenWhole)
   for (int after = 0; stopped; after += 2)
   {
     Series run;
+    run.update({ files[0] });
     run.options.threads = 3;
     Notices notices;
     Stop stop(after);

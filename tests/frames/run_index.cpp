@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Series of files on disk, as a run writes them and as they change while somebody looks.
 #include "granular/frames/run_index.h"
-#include "granular/formats/dump/grammar/dump_files.h"
 
 #include "../support/byte_source_packing.h"
 #include "../support/series.h"
-#include "../support/stop.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -21,26 +18,18 @@
 namespace
 {
 namespace fs = std::filesystem;
-using granular::Notices;
 using granular::RunIndex;
 using Times = std::vector<double>;
 
-/// A frame of rows particles, whose x is the timestep.
-std::string frame(std::int64_t step, int rows = 2, const std::string& before = "")
+/// A frame of so many particles, whose x is the timestep.
+std::string frame(std::int64_t step, int rows = 2)
 {
-  const std::string number = std::to_string(step);
-  std::string text = before + "ITEM: TIMESTEP\n" + number + "\nITEM: NUMBER OF ATOMS\n" +
-    std::to_string(rows) + "\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id x y z\n";
-  for (int row = 1; row <= rows; ++row)
-  {
-    text += std::to_string(row) + " " + number + " 0.5 0.25\n";
-  }
-  return text;
+  return particles(step, ids_from(1, rows));
 }
 
 std::string at_time(double time, std::int64_t step)
 {
-  return frame(step, 1, "ITEM: TIME\n" + std::to_string(time) + "\n");
+  return "ITEM: TIME\n" + std::to_string(time) + "\n" + frame(step, 1);
 }
 }
 
@@ -56,18 +45,6 @@ TEST(RunIndex, ManyFramesInAFile)
   EXPECT_EQ(run.read(1).points()[0], 100);
   EXPECT_EQ(run.read(1).rows(), 3);
   EXPECT_EQ(run.read(2).rows(), 0);
-}
-
-TEST(RunIndex, FilesOfOneFrameAreSortedByTimestep)
-{
-  const Folder folder;
-  Series run;
-  // as a shell lists them
-  run.update({ folder.write("dump.0", frame(0)), folder.write("dump.1000", frame(1000)),
-    folder.write("dump.200", frame(200)) });
-  EXPECT_EQ(run.steps(), (Steps{ 0, 200, 1000 }));
-  EXPECT_EQ(run.file(1), 2u);
-  EXPECT_EQ(run.read(2).points()[0], 1000);
 }
 
 TEST(RunIndex, TrapRepeatedTimestepsTheLastOneStays)
@@ -98,16 +75,6 @@ TEST(RunIndex, TrapDecreasingAndNegativeTimesteps)
     frame(500) + frame(0) + frame(-100) + frame(9'000'000'000) + frame(500, 7) + frame(100)) });
   EXPECT_EQ(run.steps(), (Steps{ -100, 0, 100, 500, 9'000'000'000 }));
   EXPECT_EQ(run.read(3).rows(), 7);
-}
-
-TEST(RunIndex, TheSameFileTwice)
-{
-  const Folder folder;
-  const std::string path = folder.write("a.dump", frame(0) + frame(100));
-  Series run;
-  run.update({ path, path });
-  EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
-  EXPECT_EQ(run.read(1).points()[0], 100);
 }
 
 TEST(RunIndex, UnitsAreOfTheirFile)
@@ -178,59 +145,6 @@ TEST(RunIndex, FindsTheLastFrameAtOrBeforeATime)
 
 // ---- files that change -------------------------------------------------------------------------
 
-TEST(RunIndex, TrapCutAtEveryByteAndThenCompleted)
-{
-  const Folder folder;
-  const std::string text = frame(0) + frame(100) + frame(200);
-  const std::size_t size = frame(0).size();
-  ASSERT_EQ(text.size(), 3 * size + 8 + 4) << "two digits more per number";
-  const std::vector<std::size_t> ends = { size, size + frame(100).size(), text.size() };
-  for (std::size_t cut = 0; cut < text.size(); ++cut)
-  {
-    const std::string path = folder.write("a.dump", text.substr(0, cut));
-    Series run;
-    if (cut < ends[0])
-    {
-      EXPECT_NE(error_of([&] { run.update({ path }); }), "") << cut;
-      EXPECT_EQ(run.index.size(), 0u) << cut;
-    }
-    else
-    {
-      run.update({ path });
-      ASSERT_EQ(run.steps(), cut < ends[1] ? Steps{ 0 } : (Steps{ 0, 100 })) << cut;
-      ASSERT_EQ(run.said, "") << cut;
-    }
-    folder.append("a.dump", text.substr(cut));
-    run.update({ path });
-    ASSERT_EQ(run.steps(), (Steps{ 0, 100, 200 })) << cut;
-    ASSERT_EQ(run.said, "") << cut;
-    ASSERT_EQ(run.read(2).points(), (Times{ 200, 0.5, 0.25, 200, 0.5, 0.25 })) << cut;
-  }
-}
-
-TEST(RunIndex, GrowsWithItsFile)
-{
-  const Folder folder;
-  const std::string path = folder.write("a.dump", "ITEM: UNITS\nsi\n" + frame(0));
-  Series run;
-  run.update({ path });
-  for (int step = 1; step < 20; ++step)
-  {
-    folder.append("a.dump", frame(step, step % 3) + "\n");
-    run.update({ path });
-    ASSERT_EQ(run.index.size(), static_cast<std::size_t>(step) + 1);
-    EXPECT_EQ(run.entry(run.index.size() - 1).kind->units, "si");
-  }
-  Series fresh;
-  fresh.update({ path });
-  EXPECT_EQ(fresh.places(), run.places());
-  for (std::size_t i = 0; i < fresh.index.size(); ++i)
-  {
-    EXPECT_EQ(fresh.entry(i).line, run.entry(i).line);
-    EXPECT_EQ(fresh.entry(i).end, run.entry(i).end);
-  }
-}
-
 TEST(RunIndex, SaysWhatItLeavesOutOnce)
 {
   const Folder folder;
@@ -281,18 +195,6 @@ TEST(RunIndex, AFileThatWasWrittenAnewIsReadAnew)
   EXPECT_EQ(run.steps()[0], 8);
 }
 
-TEST(RunIndex, TheSameSizeWrittenAgain)
-{
-  const Folder folder;
-  const std::string path = folder.write("a.dump", frame(100) + frame(200));
-  Series run;
-  run.update({ path });
-  folder.write("a.dump", frame(300) + frame(400));
-  touch(path, 10);
-  run.update({ path });
-  EXPECT_EQ(run.steps(), (Steps{ 300, 400 }));
-}
-
 TEST(RunIndex, AFileThatDidNotChangeIsNotRead)
 {
   const Folder folder;
@@ -334,27 +236,6 @@ TEST(RunIndex, ACopyReadsWhileTheFileGrows)
   EXPECT_EQ(run.read(4).points()[0], 4);
 }
 
-TEST(RunIndex, FilesComeAndGo)
-{
-  const Folder folder;
-  const std::string a = folder.write("a.dump", frame(0));
-  const std::string b = folder.write("b.dump", frame(100));
-  Series run;
-  run.update({ a, b, folder.path("c.dump") });
-  EXPECT_EQ(run.steps(), (Steps{ 0, 100 }));
-  EXPECT_EQ(run.said,
-    folder.path("c.dump") + ": cannot open: No such file or directory; the file is left out\n");
-  folder.write("c.dump", frame(200));
-  fs::remove(a);
-  run.update({ a, b, folder.path("c.dump") });
-  EXPECT_EQ(run.steps(), (Steps{ 100, 200 }));
-  EXPECT_EQ(run.file(1), 2u);
-  run.update({ b });
-  EXPECT_EQ(run.steps(), Steps{ 100 });
-  ASSERT_EQ(run.index.files().size(), 1u);
-  EXPECT_EQ(run.index.files()[0].path, b);
-}
-
 TEST(RunIndex, AFileWithoutFramesAmongOthers)
 {
   const Folder folder;
@@ -394,32 +275,6 @@ TEST(RunIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
     EXPECT_EQ(run.said, "") << i;
     EXPECT_EQ(run.index.files()[0].notices.size(), 1u) << i;
   }
-}
-
-TEST(RunIndex, CancelledAtAnyReportThenWhole)
-{
-  const Folder folder;
-  const Files files = { folder.write("a.dump", frame(0)), folder.write("b.dump", frame(100)),
-    folder.write("c.dump", frame(200)) };
-  int cancelled = 0;
-  for (int after = 0; after < 10; ++after)
-  {
-    Series run;
-    run.update({ files[0] });
-    Notices notices;
-    Stop stop(after);
-    try
-    {
-      run.index.update(files, { .format = &granular::dump_format() }, notices, stop);
-    }
-    catch (const granular::Cancelled&)
-    {
-      ++cancelled;
-    }
-    run.update(files);
-    EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 })) << after;
-  }
-  EXPECT_GE(cancelled, 3);
 }
 
 // ---- what is no dump ---------------------------------------------------------------------------
@@ -471,31 +326,6 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
     error(folder.path("pipe")), folder.path("pipe") + ": expected a file, got a device or a pipe");
 }
 
-// ---- real files --------------------------------------------------------------------------------
-
-TEST(RunIndex, FilesOfTheRealPrograms)
-{
-  const std::string good = std::string(GRANULAR_DATA) + "/good/";
-  Series run;
-  run.update({ good + "grains.dump" });
-  EXPECT_EQ(run.said, "");
-  EXPECT_EQ(run.steps(), (Steps{ 0, 1000, 2000 }));
-  EXPECT_EQ(run.read(0).rows(), 0);
-  EXPECT_EQ(run.read(2).rows(), 1200);
-  run.update({ good + "grains_2000.dump", good + "grains_0.dump", good + "grains_1000.dump" });
-  EXPECT_EQ(run.said, "");
-  EXPECT_EQ(run.steps(), (Steps{ 0, 1000, 2000 }));
-  for (const char* name :
-    { "ortho_plain", "ortho_scaled", "ortho_image", "ortho_scaled_image", "ortho_unwrapped",
-      "tri_plain", "tri_scaled", "tri_image", "tri_scaled_image", "tri_unwrapped" })
-  {
-    run.update({ good + name + ".dump" });
-    EXPECT_EQ(run.said, "") << name;
-    EXPECT_EQ(run.steps(), (Steps{ 0, 100 })) << name;
-    EXPECT_EQ(run.read(1).rows(), 500) << name;
-  }
-}
-
 // ---- rewritten in place ------------------------------------------------------------------------
 
 TEST(RunIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
@@ -538,26 +368,6 @@ TEST(RunIndex, ARerunThatGrewWithTheSameFirstHeader)
 }
 
 // ---- what is said of a series ------------------------------------------------------------------
-
-TEST(RunIndex, AFileOfWhichNothingIsShownIsSaid)
-{
-  const Folder folder;
-  Series run;
-  run.options.repeated_steps = granular::RepeatedSteps::Last;
-  run.update({ folder.write("p.0.dump", frame(10)), folder.write("p.1.dump", frame(10)) });
-  EXPECT_EQ(run.steps(), (Steps{ 10 }));
-  EXPECT_EQ(run.said,
-    folder.path("p.0.dump") +
-      ": no frame of this file is shown: later files have the same timesteps, such as " +
-      folder.path("p.1.dump") +
-      "; leave out files of other runs, or, if these are pieces of one run, set RepeatedSteps to "
-      "Merge\n");
-  // an ordinary restart repeats the step that it starts from
-  run.update({ folder.write("a.dump", frame(0) + frame(10)),
-    folder.write("b.dump", frame(10) + frame(20)) });
-  EXPECT_EQ(run.said, "");
-  EXPECT_EQ(run.steps(), (Steps{ 0, 10, 20 }));
-}
 
 TEST(RunIndex, TimesThatCannotBeUsedAreSaid)
 {

@@ -3,8 +3,8 @@
 #include "../support/binary_dumps.h"
 #include "../support/byte_source_packing.h"
 #include "../support/dumps.h"
+#include "../support/series.h"
 
-#include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/paths/path_frame.h"
 
 #include <gtest/gtest.h>
@@ -250,14 +250,12 @@ namespace
 PathFrame particles_of(const std::string& file, const PathRequest& request,
   const Request& base = {}, PathFrame spent = {})
 {
-  RunIndex index;
-  IndexOptions options;
-  options.format = &dump_format();
+  Series run;
+  run.update({ file });
   Progress progress;
   Notices notices;
-  index.update({ file }, options, notices, progress);
   return read_particles(
-    index.pieces(index.size() - 1), request, base, notices, progress, std::move(spent));
+    run.index.pieces(run.index.size() - 1), request, base, notices, progress, std::move(spent));
 }
 }
 

@@ -49,7 +49,7 @@ std::vector<double> row_of(
     static_cast<double>(atoms.types[row]), point[0], point[1], point[2] };
   if (form.scaled)
   {
-    const std::array<Exact, 3> scaled = box.scaled(point);
+    const std::array<Exact, 3> scaled = box.scaled({ point[0], point[1], point[2] });
     for (std::size_t k = 0; k < 3; ++k)
     {
       values[2 + k] = static_cast<double>(scaled[k].value);
@@ -186,15 +186,26 @@ std::array<std::array<Exact, 3>, 3> ReferenceBox::matrix() const
   return h;
 }
 
-std::array<Exact, 3> ReferenceBox::scaled(const double* point) const
+std::array<Exact, 3> ReferenceBox::scaled(const std::array<Exact, 3>& point) const
 {
   const std::array<Exact, 3> first = this->corner();
   const std::array<std::array<Exact, 3>, 3> h = this->matrix();
   std::array<Exact, 3> lambda;
-  lambda[2] = (Exact(point[2]) - first[2]) / h[2][2];
-  lambda[1] = (Exact(point[1]) - first[1] - h[1][2] * lambda[2]) / h[1][1];
-  lambda[0] = (Exact(point[0]) - first[0] - h[0][1] * lambda[1] - h[0][2] * lambda[2]) / h[0][0];
+  lambda[2] = (point[2] - first[2]) / h[2][2];
+  lambda[1] = (point[1] - first[1] - h[1][2] * lambda[2]) / h[1][1];
+  lambda[0] = (point[0] - first[0] - h[0][1] * lambda[1] - h[0][2] * lambda[2]) / h[0][0];
   return lambda;
+}
+
+granular::Box box_of(const ReferenceBox& box)
+{
+  using granular::Box;
+  const granular::Vector3 lo = { box.lo[0], box.lo[1], box.lo[2] };
+  const granular::Vector3 hi = { box.hi[0], box.hi[1], box.hi[2] };
+  Box made =
+    box.tilted ? Box::from_tilted_bounds(lo, hi, box.xy, box.xz, box.yz) : Box::from_bounds(lo, hi);
+  made.boundary = box.boundary;
+  return made;
 }
 
 std::string reference_dump(const ReferenceBox& box, const ReferenceAtoms& atoms,

@@ -3,6 +3,8 @@
 #ifndef granular_tests_support_reference_dump_h
 #define granular_tests_support_reference_dump_h
 
+#include "granular/geometry/box.h"
+
 #include "quad.h"
 
 #include <array>
@@ -26,7 +28,7 @@ struct ReferenceBox
   std::array<std::array<Exact, 3>, 3> matrix() const;
 
   /// lambda with x = corner + H lambda, by back substitution.
-  std::array<Exact, 3> scaled(const double* point) const;
+  std::array<Exact, 3> scaled(const std::array<Exact, 3>& point) const;
 };
 
 struct ReferenceAtoms
@@ -45,6 +47,9 @@ struct ReferenceForm
   bool lammps = false;         ///< else LIGGGHTS
   std::int32_t chunk_rows = 0; ///< of a binary file; 0: all
 };
+
+/// The box as the core has it.
+granular::Box box_of(const ReferenceBox& box);
 
 std::string reference_dump(const ReferenceBox& box, const ReferenceAtoms& atoms,
   const ReferenceForm& form, std::int64_t timestep);
