@@ -456,47 +456,46 @@ private:
 constexpr const char* blank_row = "\n             \n";
 }
 
-TEST(FrameFaults, APieceWithMoreRows)
-{
-  ChangingPieces pieces;
-  EXPECT_EQ(pieces.read().content.rows, 3600);
-  pieces.change(1, blank_row, "\n17 0.5 0.5 .5\n");
-  EXPECT_EQ(pieces.read().error, pieces.path(1) + ":1: expected 1200 rows, got more");
-}
-
-/// There is room for what one has too many where another has too few.
-TEST(FrameFaults, APieceWithMoreRowsAndOneWithFewer)
-{
-  ChangingPieces pieces;
-  pieces.change(0, blank_row, "\n17 0.5 0.5 .5\n");
-  pieces.change(2, "\n20500 0.5 0.5 0.5\n", "\n                 \n");
-  EXPECT_EQ(pieces.read().error, pieces.path(0) + ":1: expected 1200 rows, got more");
-}
-
-TEST(FrameFaults, APieceWithFewerRowsBeforeAFault)
-{
-  ChangingPieces pieces;
-  pieces.change(0, "\n500 0.5 0.5 0.5\n", "\n               \n");
-  pieces.change(1, "\n10500 0.5 0.5 0.5\n", "\n10500 0.5 bad 0.5\n");
-  EXPECT_EQ(pieces.read().error, pieces.path(0) + ":1: expected 1200 rows, got 1199");
-}
-
-TEST(FrameFaults, APieceWithFewerRowsBehindAFault)
-{
-  ChangingPieces pieces;
-  pieces.change(0, "\n500 0.5 0.5 0.5\n", "\n500 0.5 bad 0.5\n");
-  pieces.change(1, "\n10500 0.5 0.5 0.5\n", "\n                 \n");
-  EXPECT_EQ(pieces.read().error, pieces.path(0) + ":510: column 'y': expected a number, got 'bad'");
-}
-
-/// A row too many in the last piece, and one too few in the first.
+/// One may have a row too many, which stands where a blank line was, another too few, and a third a word for a number.
 TEST(FrameFaults, TheFirstPieceThatIsWrongIsNamed)
 {
-  ChangingPieces pieces;
-  pieces.change(0, "\n500 0.5 0.5 0.5\n", "\n               \n");
-  pieces.change(1, blank_row, "\n17 0.5 0.5 .5\n");
-  pieces.change(2, blank_row, "\n18 0.5 0.5 .5\n");
-  EXPECT_EQ(pieces.read().error, pieces.path(0) + ":1: expected 1200 rows, got 1199");
+  struct Change
+  {
+    int process;
+    const char* what;
+    const char* with;
+  };
+  constexpr Change more[] = { { 0, blank_row, "\n17 0.5 0.5 .5\n" },
+    { 1, blank_row, "\n17 0.5 0.5 .5\n" }, { 2, blank_row, "\n18 0.5 0.5 .5\n" } };
+  constexpr Change fewer[] = { { 0, "\n500 0.5 0.5 0.5\n", "\n               \n" },
+    { 1, "\n10500 0.5 0.5 0.5\n", "\n                 \n" },
+    { 2, "\n20500 0.5 0.5 0.5\n", "\n                 \n" } };
+  constexpr Change faulty[] = { { 0, "\n500 0.5 0.5 0.5\n", "\n500 0.5 bad 0.5\n" },
+    { 1, "\n10500 0.5 0.5 0.5\n", "\n10500 0.5 bad 0.5\n" } };
+  const std::string too_many = ":1: expected 1200 rows, got more";
+  const std::string too_few = ":1: expected 1200 rows, got 1199";
+  const struct
+  {
+    std::vector<Change> changes;
+    int process;
+    std::string said;
+  } cases[] = {
+    { { more[1] }, 1, too_many },
+    { { more[0], fewer[2] }, 0, too_many }, // there is room for it
+    { { fewer[0], faulty[1] }, 0, too_few },
+    { { faulty[0], fewer[1] }, 0, ":510: column 'y': expected a number, got 'bad'" },
+    { { fewer[0], more[1], more[2] }, 0, too_few },
+  };
+  for (const auto& one : cases)
+  {
+    ChangingPieces pieces;
+    EXPECT_EQ(pieces.read().content.rows, 3600);
+    for (const Change& change : one.changes)
+    {
+      pieces.change(change.process, change.what, change.with);
+    }
+    EXPECT_EQ(pieces.read().error, pieces.path(one.process) + one.said);
+  }
 }
 
 // ---- stopped -----------------------------------------------------------------------------------

@@ -231,16 +231,6 @@ TEST(WriteRealFiles, dialect_of_binary)
   EXPECT_FALSE(names("plain.bin", plain_columns));
 }
 
-TEST(WriteRealFiles, binary_with_names)
-{
-  for (const std::string box : { "ortho", "tri" })
-  {
-    EXPECT_EQ(change(box + "_custom.bin", {}, binary_of(Dialect::Lammps)), "") << box;
-    const Form image{ { false, true }, box == "tri", true };
-    EXPECT_EQ(change(box + "_image.bin", {}, atom_format(image, Dialect::Lammps)), "") << box;
-  }
-}
-
 /// Scaled coordinates have all their bits in a binary file: they come back where they are kept as they are.
 TEST(WriteRealFiles, scaled_binary)
 {
