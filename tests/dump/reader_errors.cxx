@@ -2,31 +2,9 @@
 // What cannot be read: one clear error, empty outputs, and the reader goes on with the next file.
 #include "reader_helpers.h"
 
-#include "vtkErrorCode.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-namespace
-{
-void ExpectEmpty(Reader& reader)
-{
-  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 0);
-  EXPECT_EQ(reader.Particles()->GetFieldData()->GetNumberOfArrays(), 0);
-  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 0);
-}
-
-void ExpectGood(Reader& reader)
-{
-  reader.Open(Good("grains_1000.dump"));
-  reader->Update();
-  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
-  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
-  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
-}
-}
 
 TEST(ReaderErrors, SayWhereAndWhatAndLeaveNothing)
 {

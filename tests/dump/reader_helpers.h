@@ -10,6 +10,7 @@
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDataArraySelection.h"
+#include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
@@ -192,6 +193,24 @@ struct Reader
     return array && index < array->GetNumberOfValues() ? array->GetValue(index) : "(none)";
   }
 };
+
+inline void ExpectEmpty(Reader& reader)
+{
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(reader.Particles()->GetFieldData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 0);
+}
+
+/// That the next file is read as if nothing had happened.
+inline void ExpectGood(Reader& reader)
+{
+  reader.Open(Good("grains_1000.dump"));
+  reader->Update();
+  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+  EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
+  EXPECT_EQ(reader.Box()->GetNumberOfCells(), 1);
+}
 
 /// A dump of one frame: header, and the rows as given.
 inline std::string Frame(
