@@ -244,10 +244,6 @@ TEST(Walls, PointsAlone)
   const Found found = sum_all(scene);
   EXPECT_EQ(found.particles[0].stress, (Six{ 0, 0, -6, 0, 0.75 * 8, 0 }));
   EXPECT_EQ(found.particles[0].force, (Vector3{ 0, 0, 8 }));
-  // above the highest point of no wall
-  scene.known.point = false;
-  EXPECT_EQ(made::error_of(scene),
-    "expected lines or an array 'contact_point' of contacts with walls, got neither");
 }
 
 /// Contacts below a force or an overlap do not count, but their forces do.

@@ -13,7 +13,6 @@
 #include <vector>
 
 using made::count_different;
-using made::error_of;
 using made::everything;
 using made::Found;
 using made::Id;
@@ -320,24 +319,6 @@ TEST(Edges, AnyIds)
   }
 }
 
-/// Duplicates (ghosts) get no sums, and do not count.
-TEST(Edges, Ghosts)
-{
-  Scene scene = two();
-  scene.particles.insert(scene.particles.begin(), { 2, { 2, 0, 0 }, 1, 1 });
-  scene.particles.push_back({ 1, { 0, 0, 0 }, 1, 1 });
-  const Found found = sum_all(scene);
-  const Found without = sum_all(two());
-  EXPECT_EQ(count_different({ found.particles[1], found.particles[2] }, without.particles), 0);
-  EXPECT_EQ(found.particles[0].force, Vector3{});
-  EXPECT_EQ(found.particles[0].coordination, 0);
-  EXPECT_EQ(found.counts, without.counts);
-  // other bits of ghost values are no matter
-  scene.particles[0].ghost = 2;
-  EXPECT_EQ(sum_all(scene).particles[0].force, (Vector3{ 4, -1, 0 }));
-  EXPECT_EQ(sum_all(scene).counts[6], 1);
-}
-
 /// Contacts go to the first of those with an id.
 TEST(Edges, RepeatedIds)
 {
@@ -370,41 +351,7 @@ TEST(Edges, MobilisedFriction)
   EXPECT_EQ(sum_all(scene).friction[0][0], 0);
 }
 
-TEST(Edges, WhatIsRefused)
-{
-  const auto refused =
-    [](Scene scene, const std::string& text, const made::ContactSumsRequest& request = everything())
-  { EXPECT_EQ(error_of(scene, request), text); };
-  Scene scene = two();
-  scene.radii = false;
-  const std::string no_radii =
-    "expected an array 'radius' of the particles, whose volume stresses are divided by, got none";
-  refused(scene, no_radii);
-  made::ContactSumsRequest request;
-  EXPECT_EQ(error_of(scene, request), "");
-  request.von_mises = true;
-  refused(scene, no_radii, request);
-  request = {};
-  request.options.least_overlap = 1e-9;
-  refused(scene,
-    "expected an array 'delta' of the contacts, or 'radius' of the particles, for MinimumOverlap, "
-    "got neither",
-    request);
-  scene.known.overlap = true;
-  EXPECT_EQ(error_of(scene, request), "");
-  scene.known.force = false;
-  EXPECT_EQ(error_of(scene, request), "");
-  request.options.least_force = 1e-9;
-  refused(scene, "expected forces of the contacts for MinimumForce, got none", request);
-  scene.pairs.clear();
-  EXPECT_EQ(error_of(scene, request), "");
-  scene = two();
-  scene.walls = { { 0, 1, { 0, 0, -1 }, {}, { 0, 0, 1 } } };
-  scene.known.ends = false;
-  refused(scene, "expected lines or an array 'contact_point' of contacts with walls, got neither");
-}
-
-/// Spans of another size than the rows need, and forces of one input alone.
+/// Spans of another size than the rows need.
 TEST(Edges, RowsThatDoNotFit)
 {
   const Scene scene = two();
@@ -414,15 +361,7 @@ TEST(Edges, RowsThatDoNotFit)
   {
     granular::SerialCommunicator alone;
     granular::Progress progress;
-    try
-    {
-      granular::sum_contacts(frame.view(), inputs, {}, alone, progress);
-    }
-    catch (const granular::Error& failure)
-    {
-      return std::string(failure.what());
-    }
-    return std::string();
+    return error_of([&] { granular::sum_contacts(frame.view(), inputs, {}, alone, progress); });
   };
   made::ContactRows short_one = rows.view();
   short_one.force = short_one.force.first(2);
@@ -433,13 +372,6 @@ TEST(Edges, RowsThatDoNotFit)
   short_one = rows.view();
   short_one.id2 = {};
   EXPECT_EQ(error({ short_one }), "expected an id2 of each contact, got 0 for 1 contacts");
-  made::ContactRows walls = rows.view();
-  walls.id1 = {};
-  walls.force = {};
-  const std::string one_kind =
-    "expected forces of all contacts, with particles and with walls, got those of one kind alone";
-  EXPECT_EQ(error({ rows.view(), walls }), one_kind);
-  EXPECT_EQ(error({ walls, rows.view() }), one_kind);
   EXPECT_EQ(error({ rows.view(), rows.view() }), "");
   EXPECT_EQ(error({}), "");
 }

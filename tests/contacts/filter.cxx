@@ -259,12 +259,12 @@ TEST(ContactSums, CellsOfAnyStorage)
   }
 }
 
-/// Duplicates of other ranks are no particles of their own.
+/// Duplicates of other ranks are no particles of their own; hidden ones are.
 TEST(ContactSums, GhostParticles)
 {
   const auto particles = MakeParticles(5);
   particles->GetPointData()->AddArray(
-    MakeArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), { 0, 0, 0, 0, 1 }));
+    MakeArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), { 0, 0, 2, 0, 1 }));
   Filter filter(particles, MakeLines(4));
   filter->Update();
   EXPECT_EQ(filter.Points("coordination"), (Values{ 1, 2, 2, 2, 0 }));

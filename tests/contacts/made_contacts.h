@@ -358,11 +358,5 @@ inline Found sum_spread(const Scene& scene, int size, const Place& particles, co
     { sum_part(scene, request, particles, touches, ranks, found, &lock); });
   return found;
 }
-
-/// The text of the error, or none.
-inline std::string error_of(const Scene& scene, const ContactSumsRequest& request = everything())
-{
-  return ::error_of([&] { sum_all(scene, request); });
-}
 }
 #endif

@@ -17,16 +17,6 @@ TEST(CompareLines, AnyLinesAnywhere)
   }
 }
 
-TEST(CompareLines, EndsMaySwap)
-{
-  SerialCommunicator alone;
-  const Columns now({ { 1, 2 }, { 4, 3 }, { 5, 5 } });
-  const Columns before({ { 3, 4 }, { 2, 1 }, { 6, 5 } });
-  const LineChanges pairs = compare_lines(now.ends(), before.ends(), alone);
-  EXPECT_EQ(pairs.current, (std::vector{ Change::Kept, Change::Kept, Change::New }));
-  EXPECT_EQ(pairs.reference, (std::vector{ Change::Kept, Change::Kept, Change::Lost }));
-}
-
 /// Of three bonds between the same two, one breaks: the last of them, by rank and row.
 TEST(CompareLines, OfSeveralTheLastOnesAreLost)
 {
