@@ -119,14 +119,6 @@ protected:
     EXPECT_EQ(reader.Box()->GetNumberOfCells(), this->Rank() == 0 ? 1 : 0);
   }
 
-  void ExpectEmpty(Reader& reader)
-  {
-    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 0);
-    EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(), 0);
-    EXPECT_EQ(reader.Particles()->GetFieldData()->GetNumberOfArrays(), 0);
-    EXPECT_EQ(reader.Box()->GetNumberOfCells(), 0);
-  }
-
   /// One error, the same on all ranks, which says this and names the rank; no output.
   void ExpectError(Reader& reader, unsigned long code, const std::string& text, int rank)
   {
@@ -136,7 +128,7 @@ protected:
     EXPECT_NE(said.find(text), std::string::npos) << said;
     EXPECT_NE(said.find("(on rank " + std::to_string(rank) + " of "), std::string::npos) << said;
     this->ExpectSame(said);
-    this->ExpectEmpty(reader);
+    ExpectEmpty(reader);
   }
 
   granular::MpiCommunicator Ranks{ MPI_COMM_WORLD };

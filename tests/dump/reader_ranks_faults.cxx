@@ -82,7 +82,7 @@ TEST_F(ReaderRanks, OneIsCancelledAtAnyReport)
         this->ExpectWhole(reader, Few);
         break;
       }
-      this->ExpectEmpty(reader);
+      ExpectEmpty(reader);
       EXPECT_EQ(Outcome(reader), "code 0");
       EXPECT_EQ(reader->GetOutputInformation(0)->Get(vtkAlgorithm::ABORTED()), 1);
       stopper->At = 0;
@@ -101,7 +101,7 @@ TEST_F(ReaderRanks, OneIsCancelledBeforehand)
     const auto abort = [&] { reader->SetAbortExecute(this->Rank() == rank ? 1 : 0); };
     abort();
     this->UpdateOwnPiece(reader);
-    this->ExpectEmpty(reader);
+    ExpectEmpty(reader);
     this->UpdateOwnPiece(reader);
     this->ExpectWhole(reader, Few);
 
@@ -111,7 +111,7 @@ TEST_F(ReaderRanks, OneIsCancelledBeforehand)
     this->ExpectWhole(reader, Few);
     reader->Modified();
     this->UpdateOwnPiece(reader);
-    this->ExpectEmpty(reader);
+    ExpectEmpty(reader);
     this->UpdateOwnPiece(reader);
     this->ExpectWhole(reader, Few);
   }
@@ -133,7 +133,7 @@ TEST_F(ReaderRanks, OneIsCancelledWhileAnotherFails)
   reader->AddObserver(vtkCommand::ProgressEvent, stopper);
   this->UpdateOwnPiece(reader); // whichever comes first
   this->ExpectSame(Outcome(reader));
-  this->ExpectEmpty(reader);
+  ExpectEmpty(reader);
   this->ExpectSame(std::to_string(reader->GetOutputInformation(0)->Get(vtkAlgorithm::ABORTED())));
   Write("run.dump", Text);
   stopper->At = 0;
@@ -189,7 +189,7 @@ TEST_F(ReaderRanks, AFailureStopsTheOthers)
     reader->AddObserver(vtkCommand::ProgressEvent, command);
     this->UpdateOwnPiece(reader);
     EXPECT_LT(last, 0.9);
-    this->ExpectEmpty(reader);
+    ExpectEmpty(reader);
     reader->RemoveObservers(vtkCommand::ProgressEvent);
     this->UpdateOwnPiece(reader);
     this->ExpectWhole(reader, many);
