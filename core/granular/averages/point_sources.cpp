@@ -271,20 +271,28 @@ Bins::Bins(const Extent& whole, double edge, std::span<const Extent> things)
   {
     all_.last[axis] = static_cast<std::int64_t>(counts[axis]);
   }
-  std::vector<std::vector<BlockRows::Entry>> entries(1);
+  starts_.resize(static_cast<std::size_t>(all_.size()) + 1);
+  const auto each_bin = [&](const Extent& thing, const auto& take)
+  {
+    if (thing.meets(whole_))
+    {
+      this->range(thing).each([&](const std::array<std::int64_t, 3>& bin)
+        { take(static_cast<std::size_t>(all_.number(bin))); });
+    }
+  };
+  for (const Extent& thing : things)
+  {
+    each_bin(thing, [&](std::size_t bin) { ++starts_[bin + 1]; });
+  }
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  things_.resize(static_cast<std::size_t>(starts_.back()));
+  std::vector<std::int64_t> next(starts_.begin(), starts_.end() - 1);
   for (std::size_t i = 0; i < things.size(); ++i)
   {
-    if (things[i].meets(whole_))
-    {
-      this->range(things[i]).each(
-        [&](const std::array<std::int64_t, 3>& bin)
-        {
-          entries[0].push_back(
-            { static_cast<std::uint32_t>(all_.number(bin)), static_cast<std::uint32_t>(i) });
-        });
-    }
+    each_bin(things[i],
+      [&](std::size_t bin)
+      { things_[static_cast<std::size_t>(next[bin]++)] = static_cast<std::uint32_t>(i); });
   }
-  things_ = BlockRows::sorted(entries, 0, all_.size());
 }
 
 CellRange Bins::range(const Extent& extent) const noexcept
@@ -304,12 +312,14 @@ CellRange Bins::range(const Extent& extent) const noexcept
   return range;
 }
 
-std::span<const std::int64_t> Bins::near(const Vector3& point) const noexcept
+std::span<const std::uint32_t> Bins::near(const Vector3& point) const noexcept
 {
   if (!Extent{ point, point }.meets(whole_)) // false for nan
   {
     return {};
   }
-  return things_.rows(all_.number(this->range({ point, point }).first));
+  const auto bin = static_cast<std::size_t>(all_.number(this->range({ point, point }).first));
+  const auto first = static_cast<std::size_t>(starts_[bin]);
+  return std::span(things_).subspan(first, static_cast<std::size_t>(starts_[bin + 1]) - first);
 }
 }

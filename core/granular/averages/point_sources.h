@@ -9,7 +9,6 @@
 #include "granular/grid/euler_grid.h"
 #include "granular/parallel/communicator.h"
 #include "granular/particles/frame_view.h"
-#include "granular/sorting/block_rows.h"
 
 #include <array>
 #include <cmath>
@@ -42,7 +41,7 @@ public:
   Bins(const Extent& whole, double edge, std::span<const Extent> things);
 
   /// Returns the things that may reach a point of the whole; none for other points.
-  std::span<const std::int64_t> near(const Vector3& point) const noexcept;
+  std::span<const std::uint32_t> near(const Vector3& point) const noexcept;
 
 private:
   CellRange range(const Extent& extent) const noexcept;
@@ -50,7 +49,8 @@ private:
   Extent whole_;
   Vector3 per_edge_ = {};
   CellRange all_;
-  BlockRows things_;
+  std::vector<std::int64_t> starts_;
+  std::vector<std::uint32_t> things_;
 };
 
 /// A particle, or an image of it.

@@ -67,7 +67,6 @@ ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
   return column;
 }
 
-/// A column seen twice stays out of the group: which of the two is meant cannot be known.
 Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const KnownColumn> table)
 {
   Groups groups;
@@ -81,9 +80,10 @@ Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const Kn
     {
       Group& group = groups[std::string(base) + (from_table ? "*" : "")];
       group.array = base;
-      group.from_table = from_table;
+      group.from_table = group.from_table || from_table;
       group.components = std::max(
         group.components, static_cast<std::size_t>(from_table ? known->components : index));
+      // a column seen twice stays out: which of the two is meant cannot be known
       group.columns.try_emplace(static_cast<std::size_t>(index - 1), static_cast<int>(i));
     }
   }
@@ -268,8 +268,7 @@ std::string ColumnSchema::text() const
 
 std::string ColumnSchema::text(const ArrayInfo& array) const
 {
-  if (array.scale != 1 ||
-    std::ranges::any_of(array.columns, [](int column) { return column < 0; }))
+  if (array.scale != 1 || std::ranges::any_of(array.columns, [](int column) { return column < 0; }))
   {
     return {};
   }

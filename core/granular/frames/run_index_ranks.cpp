@@ -208,7 +208,8 @@ std::vector<FileIndex> look_together(const std::vector<std::string>& names,
     std::erase_if(files, [](const FileIndex& file) { return !may_be_sent(file); });
     sent = encode_files(files);
   }
-  const std::vector<std::string> came = ranks.all_gather(sent);
+  const std::vector<std::string> came =
+    ranks.all_gather(sent); // all get the whole index soon, anyway
   if (rank == 0)
   {
     for (std::size_t other = 1; other < size; ++other)

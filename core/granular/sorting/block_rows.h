@@ -45,12 +45,6 @@ public:
   std::span<const std::int64_t> rows(std::int64_t block, std::int64_t first, std::int64_t last,
     std::span<std::int64_t> buffer) const noexcept;
 
-  /// Returns all rows of a block whose entries were sorted.
-  std::span<const std::int64_t> rows(std::int64_t block) const noexcept
-  {
-    return { rows_.data() + this->start(block), static_cast<std::size_t>(this->count(block)) };
-  }
-
 private:
   std::vector<std::int64_t> starts_; ///< blocks + 1
   std::vector<std::int64_t> rows_;   ///< empty: those of the only block, from 0

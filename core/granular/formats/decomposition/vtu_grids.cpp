@@ -67,7 +67,7 @@ VtuGrids::VtuGrids(std::string_view text, const std::string& path)
   }
   catch (const Error&)
   {
-    error_ = std::current_exception();
+    error_ = error_ ? error_ : std::current_exception();
   }
 }
 
@@ -100,7 +100,15 @@ void VtuGrids::find_grids()
     }
     else if (element.starts_with(piece_element))
     {
-      this->add_array();
+      try
+      {
+        this->add_array();
+      }
+      catch (const Error&) // what else there is tells what the file is
+      {
+        error_ = error_ ? error_ : std::current_exception();
+        keep_ = false;
+      }
     }
   }
 }

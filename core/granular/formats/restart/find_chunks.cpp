@@ -113,7 +113,7 @@ private:
   /// Tries the chunks from one that has records to the end of the file or, inside of it, to the last that has, wherever it ends.
   bool try_at(std::int64_t at, bool inside)
   {
-    if (!inside && this->hop(at) != size_)
+    if (!inside && !this->hops_to_end(at))
     {
       return false;
     }
@@ -154,21 +154,22 @@ private:
     return true;
   }
 
-  /// Hops over chunks, as many as there are processes or up to the end of the file. Returns the byte behind the last; -1: there
-  /// are others.
-  std::int64_t hop(std::int64_t at)
+  /// Hops over chunks. Returns true if, with those without records before them, there is one for each process up to the end of the file.
+  bool hops_to_end(std::int64_t begin)
   {
-    for (int chunks = 0; at < size_ && chunks < header_.processes; ++chunks)
+    std::int64_t at = begin;
+    std::int64_t missing = header_.processes;
+    for (; at < size_ && missing > 0; --missing)
     {
       const std::int64_t doubles = this->doubles_at(at);
       const bool fits = doubles == 0 || doubles >= least_doubles;
       if (!fits || budget_.spent())
       {
-        return -1;
+        return false;
       }
       at += count_bytes + doubles * 8;
     }
-    return at;
+    return at == size_ && begin - this->zeros_before(begin, missing) == missing * count_bytes;
   }
 
   /// The count of a chunk, for whose doubles there is room; -1 where there is none.
@@ -184,8 +185,10 @@ private:
   /// Returns the place from which there are only chunks without records up to another, at most so many.
   std::int64_t zeros_before(std::int64_t end, std::int64_t most)
   {
-    std::int64_t first = end - std::min(most, (end - begin_) / count_bytes) * count_bytes;
-    for (std::int64_t at = first; at < end; at += count_bytes)
+    const std::int64_t least = end - std::min(most, (end - begin_) / count_bytes) * count_bytes;
+    const bool any = least < end && this->doubles_at(end - count_bytes) == 0;
+    std::int64_t first = any ? least : end;
+    for (std::int64_t at = first; at < end && !budget_.spent(); at += count_bytes)
     {
       first = this->doubles_at(at) == 0 ? first : at + count_bytes;
     }

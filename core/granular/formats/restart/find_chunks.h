@@ -71,11 +71,12 @@ struct ChunkSearch
   bool gave_up = false; ///< too many places looked like chunks
 };
 
-/// Finds the chunks of records of all processes behind a byte: layout.begin, chunks, blocks and records; it has the header. They begin with those without records, if any, and then with a count
-/// and the length of a record: only bytes that could be such a pair are looked at further, and lead, chunk by chunk, to the end of the
-/// file or nowhere; the chunks without records before are known by what is missing in number. With a time in the header (INL) and no
-/// such place: to as many records as the header says, which lie near the box. Time and reading are limited by a budget of a few times
-/// the size of the file. The source must know its size. Throws IoError, Cancelled.
+/// Finds the chunks of records of all processes behind a byte, and fills begin, chunks, blocks and records of a layout that has the
+/// header. Chunks without records come first, if there are any, and then a count and the length of a record: only bytes that could be
+/// such a pair are looked at further, and lead, chunk by chunk, to the end of the file or nowhere; the chunks without records before are
+/// known by what is missing in number. With a time in the header (INL) and no such place: to as many records as the header says, which
+/// lie near the box. Time and reading are limited by a budget of a few times the size of the file. The source must know its size. Throws
+/// IoError, Cancelled.
 ChunkSearch find_chunks(
   const ByteSource& source, std::int64_t begin, RestartLayout& layout, Progress& progress);
 }

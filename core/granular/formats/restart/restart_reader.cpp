@@ -134,7 +134,10 @@ public:
     // what fixes have is the same in all records or left out, which all pieces must know
     const bool all = bonds_ || plan_.fixes() > 0;
     const auto is_needed = [&](const RecordBlock& block)
-    { return all || (block.first_row < end_ && block.first_row + block.records > first_); };
+    {
+      return all ||
+        (first_ < end_ && block.first_row < end_ && block.first_row + block.records > first_);
+    };
     const std::vector<RecordBlock>& blocks = layout_.blocks;
     const auto first = std::ranges::find_if(blocks, is_needed) - blocks.begin();
     const auto count = static_cast<std::size_t>(std::ranges::count_if(blocks, is_needed));
@@ -153,10 +156,16 @@ public:
         const std::size_t block = static_cast<std::size_t>(first) + number;
         const RecordBatch batch = read_records(source_, layout_, blocks[block], buffers[worker]);
         turn.reset();
-        RecordRows& some = rows[worker];
-        for (std::size_t at = 0; at < batch.size(); at += some.count)
+        const auto place_of = [&](std::int64_t row)
         {
-          some.load(plan_, batch, at, batch.size());
+          return static_cast<std::size_t>(
+            std::clamp<std::int64_t>(row - batch.first_row, 0, std::ssize(batch)));
+        };
+        const std::size_t end = all ? batch.size() : place_of(end_);
+        RecordRows& some = rows[worker];
+        for (std::size_t at = all ? 0 : place_of(first_); at < end; at += some.count)
+        {
+          some.load(plan_, batch, at, end);
           particles_.store(some);
           if (bonds_)
           {

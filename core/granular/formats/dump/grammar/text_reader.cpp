@@ -303,6 +303,10 @@ void TextReader::check(const char* first, const char* last, const RowResult& res
       {
         break; // a row of fewer words, or a blank line
       }
+      if (result.status != RowStatus::Done && word.data() < result.ptr)
+      {
+        continue; // was decoded
+      }
       const bool lost = sinks[sink].open && types[sink] == ValueType::Float64 && is_long(word);
       const RowStatus status = lost ? RowStatus::NotDouble : check_word(word, types[sink]);
       if (status != RowStatus::Done)

@@ -221,6 +221,10 @@ DumpPart decode(
 /// Puts together what all ranks have to say, on all: the first misfits, and each notice once.
 void share_remarks(Communicator& ranks, DumpPart& part)
 {
+  if (ranks.size() == 1)
+  {
+    return;
+  }
   const std::vector<DumpPart> of_ranks = gather(ranks, part);
   part.misfits.clear();
   part.notices.clear();
