@@ -196,6 +196,15 @@ TEST(VtuFiles, TagsInAnyForm)
   }
 }
 
+TEST(VtuFiles, ADamagedArrayIsAnErrorOfThatFile)
+{
+  const Folder folder;
+  const std::string bad =
+    "<Cells><DataArray type=\"Int46\" Name=\"types\">11</DataArray></Cells><CellData>";
+  EXPECT_TRUE(granular::is_decomposition_file(
+    folder.write("a.vtu", replaced(one_voxel(), "<CellData>", bad))));
+}
+
 // What one piece does not have nobody knows.
 TEST(VtuFiles, ArraysOfSomePieces)
 {

@@ -395,6 +395,11 @@ TEST(TextDump, ATextColumnThatBeginsWithANumber)
   EXPECT_EQ(frame.texts("tag"), (std::vector<std::string>{ "12", "C", "12" }));
   EXPECT_EQ(frame.said(),
     "memory:11: column 'tag': expected a number, got 'C'; the column is kept as texts\n");
+  // what its other words would have made of the column is not said
+  EXPECT_EQ(Dump(one_frame("id x y z tag", "1 0 0 0 0.5\n2 0 0 0 9007199254740993\n3 0 0 0 abc\n"))
+              .read()
+              .said(),
+    "memory:12: column 'tag': expected a number, got 'abc'; the column is kept as texts\n");
   // where a column is known to hold numbers, a word is an error
   EXPECT_EQ(Dump(one_frame("id x y z vx", "1 0 0 0 12\n2 0 0 0 C\n")).error(),
     "memory:11: column 'vx': expected a number, got 'C'");

@@ -194,6 +194,18 @@ TEST(RestartDamage, NoParticles)
   EXPECT_EQ(said_of(file.file()), common);
 }
 
+// From the chunk of each process, chunks lead to the end of the file: only those of all processes are looked at.
+TEST(RestartDamage, OneParticleTooFewOfManyProcesses)
+{
+  RestartBuilder file = small_file();
+  const restart_builder::Record record = file.chunks[0][0];
+  file.chunks.assign(300, std::vector<restart_builder::Record>(100, record));
+  file.grid = { 300, 1, 1 };
+  file.atoms = 30'001;
+  const std::string said = said_of(file.file());
+  EXPECT_TRUE(said.ends_with("; found 30000 particles where these should be")) << said;
+}
+
 TEST(RestartDamage, RecordsThatAreNone)
 {
   for (const std::size_t slot : { 0u, 4u, 5u })
