@@ -316,7 +316,7 @@ private:
       return;
     }
     std::vector<granular_array_facts> arrays = this->offered(number, request.table);
-    arrays.push_back({ "points", GRANULAR_FLOAT64, 3, 1, "", "" });
+    arrays.push_back({ "points", GRANULAR_FLOAT64, 3, 1, "", "", "" });
     std::vector<std::vector<char>> memory;
     std::vector<granular_destination> destinations;
     for (const granular_array_facts& array : arrays)

@@ -53,7 +53,7 @@ std::array<double, count> sum_terms(std::size_t n, const Make& make)
 /// The sources of averages at points, and the averages.
 struct PointSums
 {
-  using Near = std::span<const std::int64_t>;
+  using Near = std::span<const std::uint32_t>;
 
   /// Returns the sum of the weights.
   double add_particles(std::size_t to, const Vector3& point, Near near)
