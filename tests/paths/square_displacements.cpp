@@ -99,13 +99,11 @@ void check(const walks::Run& run, const walks::Shown& shown)
   on_ranks(
     [&](Communicator& ranks)
     {
-      for (const Deal& deal : { Deal(by_frames), Deal(by_rows), Deal(all_on_last) })
+      for (const auto& [deal, threads] :
+        { std::pair{ Deal(by_frames), 1 }, { Deal(by_rows), 3 }, { Deal(all_on_last), 1 } })
       {
-        for (const int threads : { 1, 3 })
-        {
-          ASSERT_NO_FATAL_FAILURE(
-            expect_means(add_all(dealt(frames, deal, ranks), ranks, threads), expected));
-        }
+        ASSERT_NO_FATAL_FAILURE(
+          expect_means(add_all(dealt(frames, deal, ranks), ranks, threads), expected));
       }
     });
 }
