@@ -61,6 +61,7 @@ class Option(NamedTuple):
     c: str  #: in the structs of granular.h
     type: str
     default: Any
+    minimum: Any
     choices: tuple[str, ...]
     text: str
 
@@ -84,7 +85,7 @@ def files_of(table, option):
 def python_tables(table):
     def row(option):
         told = option["text"] + files_of(table, option)
-        return (*(option[key] for key in ("name", "property", "c", "type", "default")), tuple(option["choices"]), told)
+        return (*(option[key] for key in ("name", "property", "c", "type", "default")), option.get("minimum", 0), tuple(option["choices"]), told)
 
     def rows(scope):
         return "".join(f"\n    Option{row(option)!r}," for option in options_of(table, scope))

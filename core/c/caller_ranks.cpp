@@ -2,10 +2,10 @@
 #include "caller_ranks.h"
 
 #include "granular/common/error.h"
+#include "granular/common/shares.h"
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -22,11 +22,6 @@ std::size_t part_bytes(int ranks)
   constexpr std::size_t least = std::size_t{ 1 } << 12;
   return std::max(
     least, all / static_cast<std::size_t>(ranks) / sizeof(std::int64_t) * sizeof(std::int64_t));
-}
-
-std::int64_t sum_of(std::span<const std::int64_t> counts)
-{
-  return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
 
 /// Copies what two ranges of bytes share: those of a part, which begins at `offset` of all that its rank sends, and the wanted ones from

@@ -143,8 +143,7 @@ extern "C"
       [&]
       {
         Caller caller(progress, notice, user);
-        needed(run, "run").expect_idle(); // or the others would wait for it elsewhere
-        granular::do_together(run->ranks(), [&] { run->refresh(caller); });
+        needed(run, "run").together(false, [&] { run->refresh(caller); });
       });
   }
 
@@ -218,7 +217,8 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        const std::vector<granular::OfferedArray>& all = run->arrays(run->number_of(frame), table);
+        const std::vector<granular::OfferedArray>& all =
+          run->offer(run->number_of(frame), table).tables[static_cast<std::size_t>(table)];
         needed(count, "count") = all.size();
         for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
         {
@@ -253,14 +253,10 @@ extern "C"
       {
         needed(out, "out") = nullptr;
         const std::shared_lock lock(needed(run, "run").mutex);
-        if (run->ranks().size() > 1)
-        {
-          run->expect_idle();
-        }
-        *out = granular::do_together(run->ranks(),
-          [&] {
-            return run->read(frame, taken(request, granular_request_init));
-          }).release();
+        *out = run
+                 ->together(
+                   true, [&] { return run->read(frame, taken(request, granular_request_init)); })
+                 .release();
       });
   }
 
@@ -272,11 +268,7 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        if (run->ranks().size() > 1)
-        {
-          run->expect_idle();
-        }
-        granular::do_together(run->ranks(),
+        run->together(true,
           [&]
           {
             granular_request named = taken(request, granular_request_init);

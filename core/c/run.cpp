@@ -208,11 +208,8 @@ granular_run::granular_run(std::vector<std::string> patterns, const granular_ope
   do_together(*ranks_,
     [&]
     {
-      const bool first = ranks_->rank() == 0;
-      std::int64_t kind =
-        first ? choose_kind(options.kind, find_files(patterns_).front()).number : 0;
-      ranks_->sum({ &kind, 1 });
-      run_ = Run(kind_of_number(kind));
+      run_ = Run(kind_of_first(*ranks_,
+        [&]() -> const Kind& { return choose_kind(options.kind, find_files(patterns_).front()); }));
       if (!(timestep_size_ > 0) || !std::isfinite(timestep_size_))
       {
         throw ArgumentError(
@@ -276,21 +273,16 @@ std::size_t granular_run::number_of(std::int64_t frame) const
   return static_cast<std::size_t>(number);
 }
 
-const Offer& granular_run::offer(std::size_t frame)
-{
-  const std::lock_guard guard(offers_mutex_);
-  Progress progress;
-  return run_.offer(frame, progress);
-}
-
-const std::vector<OfferedArray>& granular_run::arrays(std::size_t frame, int table)
+const Offer& granular_run::offer(std::size_t frame, int table)
 {
   if (table < 0 || table > (this->kind().has_bonds ? 1 : 0))
   {
     throw ArgumentError(std::string("expected table 0") + (this->kind().has_bonds ? " or 1" : "") +
       ", got " + std::to_string(table));
   }
-  return this->offer(frame).tables[static_cast<std::size_t>(table)];
+  const std::lock_guard guard(offers_mutex_);
+  Progress progress;
+  return run_.offer(frame, progress);
 }
 
 std::unique_ptr<granular_frame> granular_run::read(
@@ -300,12 +292,12 @@ std::unique_ptr<granular_frame> granular_run::read(
   const std::size_t frame = this->number_of(number);
   const Wanted wanted(given, *ranks_);
   Caller caller(given.progress, given.notice, given.user);
-  const std::vector<OfferedArray>& there = this->arrays(frame, wanted.table);
-  const Offer& told = this->offer(frame);
+  const Offer& told = this->offer(frame, wanted.table);
   if (!told.error.empty())
   {
     throw FormatError(told.error, told.where);
   }
+  const std::vector<OfferedArray>& there = told.tables[static_cast<std::size_t>(wanted.table)];
   for (const std::string& name : wanted.names)
   {
     if (name != points_name && name != ends_name && name != "length" &&

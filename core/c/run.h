@@ -69,15 +69,23 @@ struct granular_run
   void refresh(granular_c::Caller& caller);
   std::size_t number_of(std::int64_t frame) const; ///< throws ArgumentError
 
-  granular::Communicator& ranks() { return *ranks_; }
-
-  /// Throws ArgumentError if this thread is at work on the run already: in a function for progress or notices.
-  void expect_idle() const;
+  /// Works with all ranks. Throws ArgumentError in a function for progress or notices of the same run: the other ranks would wait for
+  /// this one elsewhere. One rank alone may read there.
+  template <class Work>
+  auto together(bool reads, const Work& work)
+  {
+    if (!reads || ranks_->size() > 1)
+    {
+      this->expect_idle();
+    }
+    return granular::do_together(*ranks_, work);
+  }
   const granular::Kind& kind() const { return run_.kind(); }
   const granular::RunIndex& index() const { return run_.index(); }
 
-  /// The arrays of a frame; found once for all frames with the same columns.
-  const std::vector<granular::OfferedArray>& arrays(std::size_t frame, int table);
+  /// Returns the offer of the files for a frame; found once for all frames with the same columns. Throws ArgumentError for a table that
+  /// there is not.
+  const granular::Offer& offer(std::size_t frame, int table);
 
   /// Collective.
   std::unique_ptr<granular_frame> read(std::int64_t frame, const granular_request& given);
@@ -99,8 +107,7 @@ struct granular_run
   std::vector<LeftOut> left_out; ///< of each file
 
 private:
-  /// Returns what the files tell of a frame.
-  const granular::Offer& offer(std::size_t frame);
+  void expect_idle() const;
 
   std::unique_ptr<granular::Communicator> ranks_;
   granular::SerialCommunicator alone_;

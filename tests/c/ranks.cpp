@@ -2,69 +2,39 @@
 // Threads as ranks, each with a run of its own: together they get what one process alone gets.
 #include "handles.h"
 
+#include "../support/thread_ranks.h"
+
 #include <algorithm>
-#include <barrier>
-#include <cstring>
+#include <functional>
 #include <set>
-#include <thread>
 
 namespace
 {
-/// Ranks that tell each other bytes in memory that all of them see.
-class Threads
+int all_gather(const void* mine, void* all, std::size_t bytes, void* user)
 {
-public:
-  explicit Threads(int size)
-    : sent_(static_cast<std::size_t>(size))
-    , barrier_(size)
+  auto* to = static_cast<char*>(all);
+  for (const std::string& part : static_cast<granular::Communicator*>(user)->all_gather(
+         { static_cast<const char*>(mine), bytes }))
   {
+    EXPECT_EQ(part.size(), bytes);
+    to = std::ranges::copy(part, to).out;
   }
+  return 0;
+}
 
-  /// Does work on each rank, and returns what it makes there.
-  template <class Work>
-  std::vector<std::string> on_all(const Work& work)
-  {
-    std::vector<std::string> made(sent_.size());
-    std::vector<std::jthread> threads;
-    for (std::size_t rank = 0; rank < made.size(); ++rank)
+/// Does work on each rank, and returns what it makes there.
+std::vector<std::string> on_all(
+  int size, const std::function<std::string(const granular_ranks& ranks)>& work)
+{
+  std::vector<std::string> made(static_cast<std::size_t>(size));
+  run_ranks(size,
+    [&](granular::Communicator& ranks)
     {
-      threads.emplace_back(
-        [&, rank]
-        {
-          Rank here = { this, rank };
-          const granular_ranks ranks = { static_cast<int>(rank), static_cast<int>(made.size()),
-            all_gather, &here };
-          made[rank] = work(ranks);
-        });
-    }
-    threads.clear();
-    return made;
-  }
-
-private:
-  struct Rank
-  {
-    Threads* all;
-    std::size_t number;
-  };
-
-  static int all_gather(const void* mine, void* all, std::size_t bytes, void* user)
-  {
-    const auto [threads, number] = *static_cast<Rank*>(user);
-    threads->sent_[number].assign(static_cast<const char*>(mine), bytes);
-    threads->barrier_.arrive_and_wait();
-    for (std::size_t rank = 0; rank < threads->sent_.size(); ++rank)
-    {
-      EXPECT_EQ(threads->sent_[rank].size(), bytes);
-      std::memcpy(static_cast<char*>(all) + rank * bytes, threads->sent_[rank].data(), bytes);
-    }
-    threads->barrier_.arrive_and_wait();
-    return 0;
-  }
-
-  std::vector<std::string> sent_;
-  std::barrier<> barrier_;
-};
+      made[static_cast<std::size_t>(ranks.rank())] =
+        work({ ranks.rank(), ranks.size(), all_gather, &ranks });
+    });
+  return made;
+}
 
 void take_text(const granular_error* remark, void* user)
 {
@@ -116,7 +86,7 @@ TEST(CRanks, TheirPartsAreTheWhole)
     for (const int size : { 1, 2, 5 })
     {
       std::vector<std::string> remarks(static_cast<std::size_t>(size));
-      const std::vector<std::string> parts = Threads(size).on_all(
+      const std::vector<std::string> parts = on_all(size,
         [&](const granular_ranks& ranks)
         {
           return read_last(
@@ -149,7 +119,7 @@ TEST(CRanks, AnErrorOfOneIsThatOfAll)
   granular_request_init(&request);
   const auto expect_same = [&](const std::string& file, const std::string& expected)
   {
-    const std::vector<std::string> errors = Threads(3).on_all(
+    const std::vector<std::string> errors = on_all(3,
       [&](const granular_ranks& ranks)
       {
         std::string remarks;

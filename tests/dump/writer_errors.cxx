@@ -276,10 +276,10 @@ TEST(WriterErrors, PrintsAllProperties)
   std::ostringstream out;
   writer->Print(out);
   for (const char* name :
-    { "FileName: a.dump", "WriteTimeSteps: 0", "ParallelMode: 0", "Threads: 0", "GhostLevel: 0",
-      "Controller: ", "Written: 0", "Style: 1", "Dialect: 2", "Scaled: 1", "Image: 0",
-      "Columns: \n", "NumberFormat: Automatic", "SortById: 0", "WriteUnits: 0", "WriteTime: 0",
-      "BoxOrigin: 0 0 0\n", "BoxVectors: 0 0 0 0 0 0 0 0 0\n", "Boundary: \n" })
+    { "FileName: a.dump", "WriteTimeSteps: Off", "ParallelMode: 0", "Threads: 0", "GhostLevel: 0",
+      "Controller: ", "Written: Off", "Style: 1", "Dialect: 2", "Scaled: On", "Image: Off",
+      "Columns: \n", "NumberFormat: Automatic", "SortById: Off", "WriteUnits: Off",
+      "WriteTime: Off", "BoxOrigin: 0 0 0\n", "BoxVectors: 0 0 0 0 0 0 0 0 0\n", "Boundary: \n" })
   {
     EXPECT_NE(out.str().find(name), std::string::npos) << name;
   }

@@ -66,8 +66,6 @@ errors = on_all(3, lambda rank: vg.open("no_such.dump", ranks=rank))
 assert {(type(error), str(error)) for error in errors} == {(FileNotFoundError, str(errors[0]))} and "no_such.dump" in str(errors[0])
 
 
-
-
 def refused(work):
     try:
         work()
@@ -92,7 +90,8 @@ written = on_all(2, lambda rank: refused(lambda: vg.write("part.dump", vg.open(g
 assert all("a part" in text for text in written), written
 assert "cells or subdomains" in refused(lambda: vg.open(good("decomposition_1000.vtk")).read(piece=0, pieces=2))
 assert on_all(3, lambda rank: vg.open(good("decomposition_1000.vtk"), ranks=rank)[0].rows) == [vg.open(good("decomposition_1000.vtk"))[0].rows] * 3
-assert "pieces" in refused(lambda: vg.open(good("grains.dump")).read(pieces=2**32 + 2))
+for name, number in (("pieces", 2**32 + 2), ("piece", -1), ("threads", 2**31), ("stride", 2**64 + 2), ("stride", 0)):
+    assert refused(lambda: vg.open(good("grains.dump")).read(**{name: number})).startswith(f"expected {name} from ")
 
 
 class Broken:

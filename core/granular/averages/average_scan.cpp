@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/averages/average_passes.h"
+#include "granular/common/shares.h"
 #include "granular/grid/sphere_box.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/trade.h"
@@ -86,7 +87,7 @@ void AveragePasses::locate()
         counts[worker] += inside ? 0 : 1;
       }
     });
-  result_.outside = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  result_.outside = sum_of(counts);
   blocks_.set_rows(blocks_.blocks() > 1
       ? BlockRows::sorted(entries, rows_of_chunk, blocks_.blocks())
       : BlockRows::all(frame_.rows));

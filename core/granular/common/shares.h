@@ -3,6 +3,8 @@
 #define granular_common_shares_h
 
 #include <cstdint>
+#include <numeric>
+#include <span>
 
 namespace granular
 {
@@ -12,6 +14,12 @@ inline std::int64_t begin_of_part(std::int64_t rows, int part, int parts) noexce
 {
   // of the rest, less than parts, the product fits
   return rows / parts * part + rows % parts * part / parts;
+}
+
+/// Returns the sum of counts, such as the rows of ranks.
+inline std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
+{
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
 }
 }
 #endif

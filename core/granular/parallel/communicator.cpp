@@ -4,11 +4,11 @@
 #include "granular/common/error.h"
 #include "granular/common/pass.h"
 #include "granular/common/progress.h"
+#include "granular/common/shares.h"
 
 #include <algorithm>
 #include <array>
 #include <new>
-#include <numeric>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -260,7 +260,7 @@ std::vector<std::string> Communicator::gather(std::string_view bytes, const Stat
     counts[own] = static_cast<std::int64_t>(bytes.size());
     this->do_sum(counts);
   }
-  const std::int64_t total = std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
+  const std::int64_t total = sum_of(counts);
   if (total == 0)
   {
     return all;
@@ -276,9 +276,7 @@ std::vector<std::string> Communicator::gather(std::string_view bytes, const Stat
              this->prepare_gather(counts);
            }),
     {});
-  std::ranges::copy(bytes,
-    joined.begin() +
-      std::accumulate(counts.begin(), counts.begin() + this->rank(), std::int64_t{ 0 }));
+  std::ranges::copy(bytes, joined.begin() + sum_of(std::span(counts).first(own)));
   this->do_gather(joined.data(), counts);
   std::size_t begin = 0;
   for (std::size_t rank = 0; rank < all.size(); ++rank)

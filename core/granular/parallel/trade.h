@@ -3,6 +3,7 @@
 #define granular_parallel_trade_h
 
 #include "granular/common/pass.h"
+#include "granular/common/shares.h"
 #include "granular/parallel/communicator.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ auto trade(const Values& values, const std::vector<std::int64_t>& out,
   const std::vector<std::int64_t>& in, Communicator& ranks, std::size_t width = 1)
 {
   using Value = std::ranges::range_value_t<Values>;
-  const auto all = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
+  const auto all = sum_of(in);
   std::vector<Value> came(width * static_cast<std::size_t>(all));
   const std::size_t bytes = width * sizeof(Value);
   ranks.exchange(reinterpret_cast<const char*>(values.data()), to_bytes(out, bytes),

@@ -165,6 +165,9 @@ const Kind* find_kind(const std::string& path) noexcept;
 /// Returns the kind with a number. Throws ArgumentError.
 const Kind& kind_of_number(std::int64_t number);
 
+/// Returns the kind that the first rank finds. Collective.
+const Kind& kind_of_first(Communicator& ranks, const std::function<const Kind&()>& find);
+
 // ---- what several kinds need ----------------------------------------------------------------------
 /// Returns frames for Kind::looked_at: one for each list of columns, or those between which bonds may have come.
 std::vector<std::size_t> one_for_columns(const RunIndex& index);

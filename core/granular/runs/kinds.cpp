@@ -60,6 +60,13 @@ const Kind& kind_of_number(std::int64_t number)
   return **found;
 }
 
+const Kind& kind_of_first(Communicator& ranks, const std::function<const Kind&()>& find)
+{
+  std::int64_t number = ranks.rank() == 0 ? find().number : 0;
+  ranks.sum({ &number, 1 });
+  return kind_of_number(number);
+}
+
 std::vector<std::size_t> one_for_columns(const RunIndex& index)
 {
   std::vector<std::size_t> frames;

@@ -324,7 +324,7 @@ void sort_together(Table& frame, const Block& ids, Communicator& ranks, Notices&
   leave.apply(sorted, id_width, executor);
   const std::vector<std::int64_t> out = count_parts(all.rows, ids_in(sorted), ranks);
   const std::vector<std::int64_t> in = swap_numbers(out, ranks);
-  frame.rows = std::accumulate(in.begin(), in.end(), std::int64_t{ 0 });
+  frame.rows = sum_of(in);
   const auto trade_rows = [&](Block& block, std::size_t width)
   {
     Block came(static_cast<std::size_t>(frame.rows) * width, block.pool());

@@ -35,6 +35,10 @@ def _choice(what: str, given: str, choices: Sequence[str]) -> int:
     return choices.index(given)
 
 
+#: What the integers of the library hold, which cut off what is more.
+_LARGEST = {"int": 2**31 - 1, "threads": 2**31 - 1, "count": 2**63 - 1}
+
+
 def _fill(struct: c.Structure, options: tuple[Option, ...], given: dict[str, Any]) -> None:
     """Fills a struct of the library with the options that were given."""
     for option in options:
@@ -49,13 +53,13 @@ def _fill(struct: c.Structure, options: tuple[Option, ...], given: dict[str, Any
             getattr(struct, option.c)[:] = [float(x) for x in value]
         elif option.type == "region":
             getattr(struct, option.c)[:] = _region(value)
-        elif option.type in ("int", "threads"):
-            number = operator.index(value)
-            if not 0 <= number < 1 << 31:
-                raise c.ArgumentError(f"expected {option.name} from 0 to 2147483647, got {number}")
+        elif option.type in _LARGEST:
+            number, largest = operator.index(value), _LARGEST[option.type]
+            if not option.minimum <= number <= largest:
+                raise c.ArgumentError(f"expected {option.name} from {option.minimum} to {largest}, got {number}")
             setattr(struct, option.c, number)
         else:
-            setattr(struct, option.c, {"flag": bool, "number": float}.get(option.type, int)(value))
+            setattr(struct, option.c, {"flag": bool, "number": float}[option.type](value))
 
 
 def words_of(given: str | Iterable[str] | None) -> str:

@@ -2,6 +2,7 @@
 #include "vtkGranularDataFileReader.h"
 
 #include "private/readers/series_reader.h"
+#include "private/request/print.h"
 
 #include "granular/formats/data_file/data_file.h"
 
@@ -47,22 +48,10 @@ vtkGranularDataFileReader::vtkGranularDataFileReader()
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkGranularDataFileReader::GetBonds()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularDataFileReader::CanReadFile(const char* fileName)
 {
   return granular::is_data_file(fileName ? fileName : "") ? 1 : 0;
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularDataFileReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "AtomStyle: " << this->AtomStyle << "\n";
-  os << indent << "Boundary: " << this->Boundary << "\n";
-  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-}
+vtkGranularOutputMacro(vtkGranularDataFileReader, GetBonds, vtkPolyData, 1);
+vtkGranularPrintMacro(vtkGranularDataFileReader, AtomStyle, Boundary, PeriodicLines);

@@ -3,6 +3,7 @@
 
 #include "private/decomposition/voxels.h"
 #include "private/readers/series_reader.h"
+#include "private/request/print.h"
 
 #include "granular/formats/decomposition/decomposition_file.h"
 
@@ -73,21 +74,10 @@ vtkGranularDecompositionReader::vtkGranularDecompositionReader()
 }
 
 //------------------------------------------------------------------------------
-vtkUnstructuredGrid* vtkGranularDecompositionReader::GetOutput()
-{
-  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularDecompositionReader::CanReadFile(const char* fileName)
 {
   return granular::is_decomposition_file(fileName ? fileName : "") ? 1 : 0;
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularDecompositionReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "CheckOverlap: " << this->CheckOverlap << "\n";
-  os << indent << "CheckGaps: " << this->CheckGaps << "\n";
-}
+vtkGranularOutputMacro(vtkGranularDecompositionReader, GetOutput, vtkUnstructuredGrid, 0);
+vtkGranularPrintMacro(vtkGranularDecompositionReader, CheckOverlap, CheckGaps);

@@ -3,6 +3,7 @@
 
 #include "private/dump/input_frames.h"
 #include "private/readers/series_reader.h"
+#include "private/request/print.h"
 
 #include "granular/formats/dump/grammar/dump_files.h"
 
@@ -76,11 +77,4 @@ int vtkGranularDumpReader::CanReadFile(const char* fileName)
   return granular::is_dump_file(fileName ? fileName : "") ? 1 : 0;
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularDumpReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "ColumnNames: " << this->ColumnNames << "\n";
-  os << indent << "PointPrecision: " << this->PointPrecision << "\n";
-  os << indent << "Vertices: " << this->Vertices << "\n";
-}
+vtkGranularPrintMacro(vtkGranularDumpReader, ColumnNames, PointPrecision, Vertices);

@@ -2,6 +2,7 @@
 #include "vtkGranularLocalReader.h"
 
 #include "private/readers/series_reader.h"
+#include "private/request/print.h"
 
 #include "granular/formats/local/local_file.h"
 #include "granular/formats/local/local_presets.h"
@@ -52,30 +53,11 @@ vtkGranularLocalReader::vtkGranularLocalReader()
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkGranularLocalReader::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkTable* vtkGranularLocalReader::GetRows()
-{
-  return vtkTable::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularLocalReader::CanReadFile(const char* fileName)
 {
   return granular::is_local_file(fileName ? fileName : "") ? 1 : 0;
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularLocalReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Preset: " << this->Preset << "\n";
-  os << indent << "ColumnMap: " << this->ColumnMap << "\n";
-  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
-     << this->PointOrigin[2] << "\n";
-}
+vtkGranularOutputMacro(vtkGranularLocalReader, GetOutput, vtkPolyData, 0);
+vtkGranularOutputMacro(vtkGranularLocalReader, GetRows, vtkTable, 1);
+vtkGranularPrintMacro(vtkGranularLocalReader, Preset, ColumnMap, PeriodicLines, PointOrigin);

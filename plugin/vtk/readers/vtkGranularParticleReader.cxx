@@ -2,6 +2,7 @@
 #include "vtkGranularParticleReader.h"
 
 #include "private/readers/series_reader.h"
+#include "private/request/print.h"
 
 #include "vtkPolyData.h"
 
@@ -14,25 +15,6 @@ vtkGranularParticleReader::vtkGranularParticleReader(std::unique_ptr<Internals> 
 {
 }
 
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularParticleReader::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularParticleReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "Coordinates: " << this->Coordinates << "\n";
-  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
-     << this->PointOrigin[2] << "\n";
-  os << indent << "SortById: " << (this->SortById ? "On" : "Off") << "\n";
-  os << indent << "Stride: " << this->Stride << "\n";
-  os << indent << "RegionOfInterest:";
-  for (double bound : this->RegionOfInterest)
-  {
-    os << " " << bound;
-  }
-  os << "\n";
-}
+vtkGranularOutputMacro(vtkGranularParticleReader, GetOutput, vtkPolyData, 0);
+vtkGranularPrintMacro(
+  vtkGranularParticleReader, Coordinates, PointOrigin, SortById, Stride, RegionOfInterest);

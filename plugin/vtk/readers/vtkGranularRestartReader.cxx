@@ -2,6 +2,7 @@
 #include "vtkGranularRestartReader.h"
 
 #include "private/readers/series_reader.h"
+#include "private/request/print.h"
 
 #include "granular/formats/restart/restart_file.h"
 #include "granular/formats/restart/restart_reader.h"
@@ -50,29 +51,11 @@ vtkGranularRestartReader::vtkGranularRestartReader()
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkGranularRestartReader::GetOutput()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
-}
-
-//------------------------------------------------------------------------------
-vtkPolyData* vtkGranularRestartReader::GetBonds()
-{
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(1));
-}
-
-//------------------------------------------------------------------------------
 int vtkGranularRestartReader::CanReadFile(const char* fileName)
 {
   return granular::is_restart_file(fileName ? fileName : "") ? 1 : 0;
 }
 
-//------------------------------------------------------------------------------
-void vtkGranularRestartReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "HistoryLayout: " << this->HistoryLayout << "\n";
-  os << indent << "PeriodicLines: " << this->PeriodicLines << "\n";
-  os << indent << "PointOrigin: " << this->PointOrigin[0] << " " << this->PointOrigin[1] << " "
-     << this->PointOrigin[2] << "\n";
-}
+vtkGranularOutputMacro(vtkGranularRestartReader, GetOutput, vtkPolyData, 0);
+vtkGranularOutputMacro(vtkGranularRestartReader, GetBonds, vtkPolyData, 1);
+vtkGranularPrintMacro(vtkGranularRestartReader, HistoryLayout, PeriodicLines, PointOrigin);

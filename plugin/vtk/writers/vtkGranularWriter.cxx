@@ -4,6 +4,7 @@
 #include "private/dump/input_frames.h"
 #include "private/readers/series_reader.h"
 #include "private/request/guard.h"
+#include "private/request/print.h"
 #include "private/writing/writer.h"
 
 #include "vtkCommand.h"
@@ -103,13 +104,10 @@ void vtkGranularWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-  os << indent << "WriteTimeSteps: " << this->WriteTimeSteps << "\n";
-  os << indent << "ParallelMode: " << this->ParallelMode << "\n";
-  os << indent << "Durable: " << this->Durable << "\n";
-  os << indent << "Threads: " << this->Threads << "\n";
-  os << indent << "GhostLevel: " << this->GhostLevel << "\n";
   os << indent << "Controller: " << this->GetController() << "\n";
-  os << indent << "Written: " << this->Written << "\n";
+  PrintProperties(os, indent, "WriteTimeSteps, ParallelMode, Durable, Threads, GhostLevel, Written",
+    this->WriteTimeSteps, this->ParallelMode, this->Durable, this->Threads, this->GhostLevel,
+    this->Written);
 }
 
 //------------------------------------------------------------------------------

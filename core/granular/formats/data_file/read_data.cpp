@@ -16,7 +16,6 @@
 #include <array>
 #include <cstring>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -289,9 +288,8 @@ private:
     std::int64_t first = 0;
     std::int64_t end = joined.count;
     const std::vector<std::int64_t> rows = gather(ranks_, joined.count);
-    bonds.header.rows = std::accumulate(rows.begin(), rows.end(), std::int64_t{ 0 });
-    bonds.first_row =
-      std::accumulate(rows.begin(), rows.begin() + ranks_.rank(), std::int64_t{ 0 });
+    bonds.header.rows = sum_of(rows);
+    bonds.first_row = sum_of(std::span(rows).first(static_cast<std::size_t>(ranks_.rank())));
     if (ranks_.size() == 1)
     {
       std::tie(first, end) = this->share_of(joined.count);

@@ -69,11 +69,11 @@ void vtkGranularSeriesReader::Internals::Update()
     this->Told.clear();
     this->IndexedNames = this->FileNames;
   }
-  std::int64_t kind = ranks.rank() == 0 ? this->FindKind().number : 0;
-  ranks.sum({ &kind, 1 });
-  if (kind != this->Run.kind().number)
+  const granular::Kind& kind =
+    granular::kind_of_first(ranks, [this]() -> const granular::Kind& { return this->FindKind(); });
+  if (&kind != &this->Run.kind())
   {
-    this->Run = granular::Run(granular::kind_of_number(kind));
+    this->Run = granular::Run(kind);
   }
   granular::Notices notices;
   AlgorithmProgress progress(this->Self);

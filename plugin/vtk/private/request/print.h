@@ -35,6 +35,10 @@ void PrintProperty(std::ostream& os, vtkIndent indent, std::string_view name, co
     }
     os << "\n";
   }
+  else if constexpr (std::is_same_v<Value, bool>)
+  {
+    os << (value ? " On\n" : " Off\n");
+  }
   else
   {
     os << " " << value << "\n";

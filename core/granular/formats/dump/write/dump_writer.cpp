@@ -2,12 +2,12 @@
 #include "granular/formats/dump/write/dump_writer.h"
 
 #include "granular/common/error.h"
+#include "granular/common/shares.h"
 #include "granular/formats/dump/write/frame_plan.h"
 #include "granular/formats/dump/write/row_batches.h"
 
 #include <algorithm>
 #include <new>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -18,11 +18,6 @@ namespace
 {
 /// Bytes of text that a rank keeps while it counts all, so that it need not encode them again.
 constexpr std::size_t most_kept = std::size_t{ 16 } << 20;
-
-std::int64_t sum_of(std::span<const std::int64_t> counts) noexcept
-{
-  return std::accumulate(counts.begin(), counts.end(), std::int64_t{ 0 });
-}
 }
 
 /// The file, as this rank knows it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/dump/write/frame_plan.h"
 
+#include "granular/common/shares.h"
 #include "granular/common/words.h"
 #include "granular/formats/dump/write/row_batches.h"
 #include "granular/formats/dump/write/row_values.h"
@@ -9,7 +10,6 @@
 #include "granular/particles/rounding_loss.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace granular
@@ -358,8 +358,7 @@ FramePlan plan_frame(
   pass(unpacker, plan);
   pass(unpacker, told);
   plan.header.counted = name_of_rows(format, plan.header);
-  plan.header.rows =
-    std::accumulate(plan.kept_rows.begin(), plan.kept_rows.end(), std::int64_t{ 0 });
+  plan.header.rows = sum_of(plan.kept_rows);
   std::string& boundary = plan.header.box.boundary;
   boundary = boundary.empty() ? "ff ff ff" : parse_boundary(boundary);
   plan.columns = join_plan(plan.columns, frame, format);
