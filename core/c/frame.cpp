@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -50,6 +51,23 @@ void check_array(const granular_array& array, std::int64_t rows)
     "three components, got " + std::to_string(array.components));
   expect(name != ends_name || (array.components == 6 && array.type == GRANULAR_FLOAT64),
     "six components of doubles");
+}
+
+/// The bounds of each component, and of vectors those of their lengths; empty if they are not known.
+std::vector<double> bounds_of(const ValueRange& range)
+{
+  std::vector<double> bounds;
+  const auto add = [&](const ValueRange::Bounds& each)
+  { bounds.insert(bounds.end(), each.begin(), each.end()); };
+  if (range.known())
+  {
+    std::ranges::for_each(range.components(), add);
+  }
+  if (bounds.size() > 2)
+  {
+    add({ std::sqrt(range.squares()[0]), std::sqrt(range.squares()[1]) });
+  }
+  return bounds;
 }
 
 /// Expects that no value is lost because another array, or the points, have a column of the same name.
@@ -124,6 +142,41 @@ std::vector<std::string> columns_read(const Table& rows)
   }
   return columns;
 }
+}
+
+void fill_corners(const granular_frame& frame, double (&corners)[24])
+{
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const int ends[] = { corner & 1, corner >> 1 & 1, corner >> 2 };
+    const Vector3 place = frame.table.header.box.corner(ends[0], ends[1], ends[2], frame.origin);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      corners[3 * static_cast<std::size_t>(corner) + axis] =
+        frame.table.coordinates == Coordinates::Scaled ? ends[axis] - frame.origin[axis]
+                                                       : place[axis];
+    }
+  }
+}
+
+std::vector<RegularGrid> find_grids(const granular_frame& frame, Notices& notices)
+{
+  const auto* const points = static_cast<const double*>(frame.table.points.data());
+  if (frame.kind != RowKind::Cells || (points == nullptr && frame.table.rows > 0))
+  {
+    throw ArgumentError("expected cells with their points, got another frame");
+  }
+  EulerFrame cells;
+  cells.cells = frame.table.rows;
+  cells.centres.assign(points, points + 3 * frame.table.rows);
+  try
+  {
+    return find_regular_grids(cells, notices);
+  }
+  catch (const UnsupportedError& error)
+  {
+    throw UnsupportedError(error.text(), frame.where);
+  }
 }
 
 const FrameArray& find_array(const granular_frame& frame, std::string_view name)
@@ -298,7 +351,7 @@ void WriteView::add(std::string name, ValueType type, int components, const void
 using namespace granular;
 
 granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
-  std::span<const KnownColumn> known, const std::vector<std::string>& groups_read)
+  std::span<const KnownColumn> known, bool split, const std::vector<std::string>& groups_read)
   : kind(rows_kind)
   , table(std::move(taken))
   , column_text(table.schema.text())
@@ -312,18 +365,31 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
     arrays.push_back(
       { "length", ValueType::Float64, 1, table.lines.lengths.data(), find_known("length", known) });
   }
+  for (std::int64_t line = 0; split && line < table.lines.count; ++line)
+  {
+    const std::int64_t row = table.first_row +
+      (table.lines.rows.empty() ? line : table.lines.rows[static_cast<std::size_t>(line)]);
+    row_parts.push_back(
+      !row_numbers.empty() && row_numbers.back() == row ? row_parts.back() + 1 : 0);
+    row_numbers.push_back(row);
+  }
+  if (split && table.has_lines)
+  {
+    arrays.push_back({ "row", ValueType::Int64, 1, row_numbers.data(), nullptr });
+    arrays.push_back({ "part", ValueType::Int32, 1, row_parts.data(), nullptr });
+  }
   if (table.points.data() != nullptr)
   {
     const std::size_t values = 3 * static_cast<std::size_t>(table.rows);
     const bool single = values > 0 && table.points.bytes() == values * sizeof(float);
     arrays.push_back({ granular_c::points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
-      table.points.data(), find_known("x", known), {}, &table.points_range });
+      table.points.data(), find_known("x", known), {}, granular_c::bounds_of(table.points_range) });
   }
   for (const TableArray& array : table.arrays)
   {
-    arrays.push_back(
-      { array.info.name.c_str(), array.info.type, array.info.components(), array.block.data(),
-        find_known(array.info.name, known), table.schema.text(array.info), &array.range });
+    arrays.push_back({ array.info.name.c_str(), array.info.type, array.info.components(),
+      array.block.data(), find_known(array.info.name, known), table.schema.text(array.info),
+      granular_c::bounds_of(array.range) });
     std::ranges::transform(
       array.words, std::back_inserter(arrays.back().word_list), &std::string::c_str);
   }

@@ -6,6 +6,7 @@
 #include "granular.h"
 
 #include "granular/common/error.h"
+#include "granular/formats/euler/regular_grids.h"
 #include "granular/frames/run_index.h"
 #include "granular/particles/frame_view.h"
 #include "granular/particles/table.h"
@@ -28,7 +29,7 @@ struct FrameArray
   const void* data;
   const granular::KnownColumn* known;      ///< its unit and meaning; null: not known
   std::string columns = {};                ///< that make it
-  const granular::ValueRange* range = {};  ///< null: of an array that has none
+  std::vector<double> range = {};          ///< as granular.h gives it; empty: not known
   std::vector<const char*> word_list = {}; ///< of a Text
 };
 
@@ -38,9 +39,10 @@ using granular::RowKind;
 /// A frame that was read. Arrays do not move: strings and pointers to them are given away.
 struct granular_frame
 {
-  /// Takes a table that was read, whose units `known` knows.
+  /// Takes a table that was read, whose units `known` knows. split: its lines are parts of rows, of which they get `row` and `part`.
   granular_frame(granular_c::RowKind rows_kind, granular::Table&& read,
-    std::span<const granular::KnownColumn> known, const std::vector<std::string>& groups_read = {});
+    std::span<const granular::KnownColumn> known, bool split,
+    const std::vector<std::string>& groups_read = {});
   granular_frame(const granular_frame&) = delete;
   granular_frame& operator=(const granular_frame&) = delete;
 
@@ -48,10 +50,13 @@ struct granular_frame
   const granular::Table table;
   granular::Vector3 origin = {};
   double time = 0;               ///< of the run
+  granular::Where where;         ///< of its first piece
   const std::string column_text; ///< of the file, separated by blanks
   std::vector<granular_c::FrameArray> arrays;
   const std::vector<std::string> groups;
   std::vector<const char*> group_list;
+  std::vector<std::int64_t> row_numbers;           ///< in the frame, of split lines
+  std::vector<std::int32_t> row_parts;             ///< of the row, from 0
   std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from
 };
 
@@ -79,6 +84,13 @@ granular::Box make_box(const granular_box& box);
 
 /// Returns the box of a frame; its boundary belongs to the header.
 granular_box box_of(const granular::FrameHeader& header);
+
+/// Fills the corners of the box of a frame; see granular_frame_header.
+void fill_corners(const granular_frame& frame, double (&corners)[24]);
+
+/// Finds the regular grids that the cells of a frame form; see granular_grids.
+std::vector<granular::RegularGrid> find_grids(
+  const granular_frame& frame, granular::Notices& notices);
 
 /// A frame as writers take it; the frame must outlive it.
 struct WriteView

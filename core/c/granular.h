@@ -236,8 +236,11 @@ typedef struct granular_array_facts
   const char* columns; /* that hold its components, separated by blanks: "vx vy vz"; of local data by their meaning; empty: there are none */
 } granular_array_facts;
 
-/* Returns in *count the number of arrays of a frame, and fills the first `most` of them; arrays may be null if most is 0.
- * table: 0, or 1 for bonds. The points are not among them. */
+/* As the number of a frame: all frames. */
+#define GRANULAR_EVERY_FRAME INT64_MIN
+
+/* Returns in *count the number of arrays of a frame, or those of every frame, each name once, and fills the first `most` of them; arrays
+ * may be null if most is 0. table: 0, or 1 for bonds. The points are not among them. With ranks, those of every frame are asked by all. */
 GRANULAR_API granular_status granular_arrays(granular_run* run, int64_t frame, int table,
   granular_array_facts* arrays, size_t most, size_t* count);
 
@@ -352,6 +355,8 @@ typedef struct granular_frame_header
   const char* shape_sizes;          /* what the array shape holds: "half axes" or "diameters"; empty: there is none */
   const char* const* groups;        /* of a restart file: their names */
   size_t group_count;
+  int box_form;                     /* 0 along the axes, 1 tilted, 2 general: three edges of any direction */
+  double box_corners[24];           /* as the points are, x y z each, at the ends of no edge, a, b, a b, c, a c, b c, a b c */
 } granular_frame_header;
 
 GRANULAR_API granular_status granular_header(
@@ -370,7 +375,8 @@ typedef struct granular_array
   const char* unit;
   const char* meaning;
   const char* columns; /* as in granular_array_facts; writers use neither this nor the range */
-  const double* range; /* minimum and maximum of each component in the rows that were read; null: not asked for, or not known */
+  const double* range; /* minimum and maximum of each component in the rows that were read, and of vectors then those of their
+                          lengths; null: not asked for, or not known */
 } granular_array;
 
 /* Returns an array by its number, from 0. */
@@ -380,6 +386,20 @@ GRANULAR_API granular_status granular_array_at(
 /* Returns an array by its name. */
 GRANULAR_API granular_status granular_array_named(
   const granular_frame* frame, const char* name, granular_array* array);
+
+/* A regular grid of cells: its bounds, the edges of a cell, and the cells along each axis. Cell first + (k counts[1] + j) counts[0] + i of
+ * the frame is its cell i, j, k. */
+typedef struct granular_grid
+{
+  double lo[3], hi[3], spacing[3];
+  int64_t counts[3];
+  int64_t first;
+} granular_grid;
+
+/* Returns in *count the number of regular grids that the cells of a frame form, which was read with its points and without an origin, and
+ * fills the first `most` of them. A frame of other cells is GRANULAR_UNSUPPORTED, and the message names the first one that does not fit. */
+GRANULAR_API granular_status granular_grids(const granular_frame* frame, granular_notice notice, void* user, granular_grid* grids,
+  size_t most, size_t* count);
 
 /* ---- writing --------------------------------------------------------------------------------- */
 

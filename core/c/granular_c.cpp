@@ -60,8 +60,7 @@ granular_array array_of(const granular_frame& frame, const FrameArray& array)
     array.data, array.word_list.empty() ? nullptr : array.word_list.data(), array.word_list.size(),
     array.known == nullptr ? "" : array.known->unit.data(),
     array.known == nullptr ? "" : array.known->meaning.data(), array.columns.c_str(),
-    array.range != nullptr && array.range->known() ? array.range->components()[0].data()
-                                                   : nullptr };
+    array.range.empty() ? nullptr : array.range.data() };
 }
 }
 
@@ -217,8 +216,9 @@ extern "C"
       [&]
       {
         const std::shared_lock lock(needed(run, "run").mutex);
-        const std::vector<granular::OfferedArray>& all =
-          run->offer(run->number_of(frame), table).tables[static_cast<std::size_t>(table)];
+        const std::vector<granular::OfferedArray>& all = frame == GRANULAR_EVERY_FRAME
+          ? *run->together(true, [&] { return &run->every_array(table); })
+          : run->offer(run->number_of(frame), table).tables[static_cast<std::size_t>(table)];
         needed(count, "count") = all.size();
         for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
         {
@@ -330,6 +330,8 @@ extern "C"
                                                                : "diameters";
         made.groups = frame->group_list.data();
         made.group_count = frame->group_list.size();
+        made.box_form = from.box.general ? 2 : from.box.tilted ? 1 : 0;
+        granular_c::fill_corners(*frame, made.box_corners);
         needed(header, "header") = made;
       });
   }
@@ -346,6 +348,33 @@ extern "C"
         std::copy_n(made.vectors, 9, box->vectors);
         std::copy_n(made.bounds, 9, box->bounds);
         box->has_bounds = made.has_bounds;
+      });
+  }
+
+  granular_status granular_grids(const granular_frame* frame, granular_notice notice, void* user,
+    granular_grid* grids, size_t most, size_t* count)
+  {
+    return guarded(
+      [&]
+      {
+        granular::Notices notices;
+        const std::vector<granular::RegularGrid> found =
+          granular_c::find_grids(needed(frame, "frame"), notices);
+        needed(count, "count") = found.size();
+        for (std::size_t i = 0; i < std::min(most, found.size()); ++i)
+        {
+          const granular::EulerGrid& from = found[i].grid;
+          granular_grid& to = (&needed(grids, "grids"))[i];
+          to.first = found[i].first;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+          {
+            to.lo[axis] = from.lo[axis];
+            to.hi[axis] = from.hi[axis];
+            to.spacing[axis] = from.spacing(axis);
+            to.counts[axis] = from.counts[axis];
+          }
+        }
+        Caller(nullptr, notice, user).tell(notices);
       });
   }
 

@@ -255,6 +255,7 @@ void granular_run::refresh(Caller& caller)
     const std::unique_lock lock(mutex);
     shared_index = std::make_shared<const RunIndex>(updated.index());
     run_ = std::move(updated);
+    std::ranges::for_each(every_array_, &std::vector<OfferedArray>::clear);
     times = std::move(new_times);
     left_out = std::move(new_left_out);
   }
@@ -273,16 +274,38 @@ std::size_t granular_run::number_of(std::int64_t frame) const
   return static_cast<std::size_t>(number);
 }
 
-const Offer& granular_run::offer(std::size_t frame, int table)
+void granular_run::expect_table(int table) const
 {
   if (table < 0 || table > (this->kind().has_bonds ? 1 : 0))
   {
     throw ArgumentError(std::string("expected table 0") + (this->kind().has_bonds ? " or 1" : "") +
       ", got " + std::to_string(table));
   }
+}
+
+const Offer& granular_run::offer(std::size_t frame, int table)
+{
+  this->expect_table(table);
   const std::lock_guard guard(offers_mutex_);
   Progress progress;
   return run_.offer(frame, progress);
+}
+
+const std::vector<OfferedArray>& granular_run::every_array(int table)
+{
+  this->expect_table(table);
+  const std::lock_guard guard(offers_mutex_);
+  Progress progress;
+  run_.look(*ranks_, progress);
+  std::vector<OfferedArray>& known = every_array_[static_cast<std::size_t>(table)];
+  for (OfferedArray& array : run_.arrays(static_cast<std::size_t>(table)))
+  {
+    if (std::ranges::find(known, array.name, &OfferedArray::name) == known.end())
+    {
+      known.push_back(std::move(array));
+    }
+  }
+  return known;
 }
 
 std::unique_ptr<granular_frame> granular_run::read(
@@ -338,16 +361,18 @@ std::unique_ptr<granular_frame> granular_run::read(
   Notices notices;
   SharedProgress progress(caller, group);
   Tables read = run_.read(frame, request, told, group, notices, progress);
+  const bool split = request.periodic_lines == PeriodicLines::Split;
   repeat_rows(request.bonds ? read.bonds : read.rows);
-  auto made = request.bonds
-    ? std::make_unique<granular_frame>(RowKind::Lines, std::move(read.bonds), local_known_columns())
-    : std::make_unique<granular_frame>(
-        this->kind().rows, std::move(read.rows), this->kind().columns(), read.groups);
+  auto made = request.bonds ? std::make_unique<granular_frame>(
+                                RowKind::Lines, std::move(read.bonds), local_known_columns(), split)
+                            : std::make_unique<granular_frame>(this->kind().rows,
+                                std::move(read.rows), this->kind().columns(), split, read.groups);
   if (made->kind != RowKind::Subdomains) // which are where the file has them
   {
     made->origin = request.point_origin;
   }
   made->time = times[frame];
+  made->where = where_of(this->index().first_piece(frame));
   made->index = shared_index;
   caller.tell(notices, group);
   return made;

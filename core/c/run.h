@@ -87,6 +87,9 @@ struct granular_run
   /// there is not.
   const granular::Offer& offer(std::size_t frame, int table);
 
+  /// Returns the arrays that look() finds in all frames, each name once. Collective.
+  const std::vector<granular::OfferedArray>& every_array(int table);
+
   /// Collective.
   std::unique_ptr<granular_frame> read(std::int64_t frame, const granular_request& given);
 
@@ -108,13 +111,15 @@ struct granular_run
 
 private:
   void expect_idle() const;
+  void expect_table(int table) const;
 
   std::unique_ptr<granular::Communicator> ranks_;
   granular::SerialCommunicator alone_;
   double timestep_size_;
   std::vector<std::string> patterns_;
   granular::Run run_ = granular::Run(granular::dump_kind);
-  std::mutex refresh_mutex_; ///< locked first
+  std::vector<granular::OfferedArray> every_array_[2]; ///< of each table, as far as asked
+  std::mutex refresh_mutex_;                           ///< locked first
   std::mutex offers_mutex_;
 };
 #endif

@@ -42,10 +42,11 @@ class Error(RuntimeError):
 class Remark(UserWarning):
     """A warning of a file that is no error, with path, line, byte and column as in Error.
 
+    text    the message without the position
     topic   remarks of one topic say the same of many frames; empty: each is new
     """
 
-    path, line, byte, column, topic = "", 0, -1, "", ""
+    path, line, byte, column, text, topic = "", 0, -1, "", "", ""
 
 
 class ArgumentError(Error, ValueError):
@@ -129,13 +130,18 @@ class FrameHeader(Structure):
     _fields_ = [("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("rows", c_int64), ("has_box", c_int),
                 ("box", CBox), ("coordinates", c_int), ("origin", c_double * 3), ("label", c_char_p), ("units", c_char_p),
                 ("columns", c_char_p), ("digits", POINTER(c_int)), ("digit_count", c_size_t), ("dialect", c_char_p), ("arrays", c_size_t),
-                ("row_label", c_char_p), ("shape_sizes", c_char_p), ("groups", POINTER(c_char_p)), ("group_count", c_size_t)]
+                ("row_label", c_char_p), ("shape_sizes", c_char_p), ("groups", POINTER(c_char_p)), ("group_count", c_size_t),
+                ("box_form", c_int), ("box_corners", c_double * 24)]
 
 
 class CArray(Structure):
     _fields_ = [("name", c_char_p), ("type", c_int), ("components", c_int), ("rows", c_int64), ("data", c_void_p),
                 ("words", POINTER(c_char_p)), ("word_count", c_size_t), ("unit", c_char_p), ("meaning", c_char_p),
                 ("columns", c_char_p), ("range", POINTER(c_double))]
+
+
+class Grid(Structure):
+    _fields_ = [("lo", c_double * 3), ("hi", c_double * 3), ("spacing", c_double * 3), ("counts", c_int64 * 3), ("first", c_int64)]
 
 
 class Format(Structure):
@@ -163,6 +169,7 @@ _FUNCTIONS = {
     "granular_read": (c_void_p, c_int64, POINTER(Request), POINTER(c_void_p)),
     "granular_complete_box": (POINTER(CBox),),
     "granular_header": (c_void_p, POINTER(FrameHeader)),
+    "granular_grids": (c_void_p, NOTICE, c_void_p, POINTER(Grid), c_size_t, POINTER(c_size_t)),
     "granular_array_at": (c_void_p, c_size_t, POINTER(CArray)),
     "granular_create": (c_char_p, POINTER(Format), POINTER(c_void_p)),
     "granular_write": (c_void_p, POINTER(Content)),
@@ -188,6 +195,7 @@ _OTHERS = {  # without a status: result and arguments
     "granular_free_names": (None, c_void_p),
     "granular_version": (c_char_p,),
 }
+EVERY_FRAME = -2**63
 _IO_ERROR, _BAD_ARGUMENT, _CANCELLED, _NO_MEMORY = 1, 5, 6, 7
 
 
@@ -296,7 +304,7 @@ class Calls:
             told = notice.contents
             remark = Remark(message_of(told.message))
             remark.path, remark.line, remark.byte = text(told.path), told.line, told.byte
-            remark.column, remark.topic = text(told.column), text(told.topic)
+            remark.column, remark.text, remark.topic = text(told.column), message_of(told.text), text(told.topic)
             self.notices.append(remark)
 
         # the main thread takes Ctrl-C in this function; others do without, because Python's end would end them in it

@@ -609,8 +609,9 @@ class Run(_Frames):
     A run may be used by several threads, pickled, and sent to other processes, which open the files again, each alone.
     """
 
-    def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None, ranks: Any = None):
-        self._paths, self._options = paths, options
+    def __init__(self, paths: list[str], options: dict[str, Any], progress: Callable[[float], Any] | None = None, ranks: Any = None,
+                 warn: Any = _warn):
+        self._warn, self._paths, self._options = warn, paths, options
         self._ranks = None if ranks is None else c.Ranks(ranks)
         self._handle = None
         self._state = object()  # another one after each refresh
@@ -625,7 +626,7 @@ class Run(_Frames):
         if self._ranks:
             given.ranks = c.pointer(self._ranks)
         pointer = c.c_void_p()
-        with c.Calls(progress, _warn, self._ranks) as calls:
+        with c.Calls(progress, warn, self._ranks) as calls:
             given.progress, given.notice = calls.progress, calls.notice
             library.granular_open(c.texts(paths), len(paths), c.byref(given), c.byref(pointer))
             self._handle: _Handle | None = _Handle(pointer, library.granular_close)
@@ -686,7 +687,7 @@ class Run(_Frames):
             return self._known["files"]
 
     def _columns(self, number: int, bonds: bool = False) -> _Columns:
-        """The columns of a frame."""
+        """The columns of a frame, or of every one."""
         key = number, bonds
         with self._lock:
             if key not in self._known:
@@ -702,7 +703,8 @@ class Run(_Frames):
                 self._known[key] = _columns_of(*kinds, "ends" if bonds or self.kind == "local" else "points")
             return self._known[key]
 
-    def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn) -> _Handle:
+    def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn,
+              ranges: bool = False) -> _Handle:
         library = c.library()
         given = c.Request()
         library.granular_request_init(c.byref(given))
@@ -712,6 +714,7 @@ class Run(_Frames):
             kept = c.texts(names or [""])
             given.arrays, given.array_count = kept, len(names)
         given.points = 1 if names is None or "points" in names else 0
+        given.ranges = ranges
         _fill(given, FRAME, request)
         pointer = c.c_void_p()
         with c.Calls(progress, warn, self._ranks) as calls:
@@ -796,7 +799,7 @@ class Run(_Frames):
 
         A frame that was read in part before cannot read its rest: take it anew.
         """
-        with self._lock, c.Calls(progress, _warn, self._ranks) as calls:
+        with self._lock, c.Calls(progress, self._warn, self._ranks) as calls:
             before, self._state = self._state, object()  # before the library changes the run for other threads
             try:
                 c.library().granular_refresh(self._open(), calls.progress, calls.notice, None)

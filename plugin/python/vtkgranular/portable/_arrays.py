@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Frames of the C library as arrays and data sets of VTK, equal to those of the compiled readers."""
+from __future__ import annotations
+
+from typing import Any, Iterable
+
+import numpy
+from vtkmodules import vtkCommonCore as core
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkUnstructuredGrid
+
+from .. import _library as c
+from .._run import _Handle, _to_numpy
+
+#: Not those of numpy_support, which makes arrays of C's long.
+_CLASSES = {"int32": core.vtkTypeInt32Array, "int64": core.vtkTypeInt64Array, "float32": core.vtkFloatArray,
+            "float64": core.vtkDoubleArray, "uint8": core.vtkUnsignedCharArray}
+
+
+def numbers(name: str | None, values: Any) -> Any:
+    """Returns an array of VTK that shares the memory of a numpy array, and keeps it."""
+    values = numpy.ascontiguousarray(values)
+    made = _CLASSES[values.dtype.name]()
+    made.SetNumberOfComponents(values.shape[1] if values.ndim > 1 else 1)
+    if values.size:
+        flat = values.reshape(-1)
+        made.SetVoidArray(flat, flat.size, 1)
+        made._values = flat  # VTK keeps the attributes of an array whose Python object is gone
+    if name is not None:
+        made.SetName(name)
+    return made
+
+
+def texts(name: str, values: Iterable[str]) -> Any:
+    """Returns a vtkStringArray."""
+    made = core.vtkStringArray()
+    made.SetName(name)
+    for value in values:
+        made.InsertNextValue(value)
+    return made
+
+
+def _set_ranges(made: Any, ranges: list[float]) -> None:
+    """Tells an array the ranges of its components, and of several also the range of their lengths, as VTK would find them."""
+    count = made.GetNumberOfComponents()
+    information = made.GetInformation()
+    for key in (made.PER_COMPONENT(), made.PER_FINITE_COMPONENT()):
+        vector = core.vtkInformationVector()
+        for i in range(count):
+            one = core.vtkInformation()
+            one.Set(made.COMPONENT_RANGE(), ranges[2 * i:2 * i + 2], 2)
+            vector.Append(one)
+        information.Set(key, vector)
+    if count > 1:
+        for key in (made.L2_NORM_RANGE(), made.L2_NORM_FINITE_RANGE()):
+            information.Set(key, ranges[2 * count:], 2)
+
+
+class Table:
+    """A frame that was read: its header and its arrays as VTK has them.
+
+    points  the positions, of lines both ends
+    drawn   arrays that only lines have: row, part, length
+    arrays  the others, by their names
+    """
+
+    def __init__(self, handle: _Handle, split: bool = False, single: bool = False):
+        library, self.header = c.library(), c.FrameHeader()
+        library.granular_header(handle, c.byref(self.header))
+        self.handle = handle
+        self.columns = c.text(self.header.columns).split()
+        self.points = core.vtkPoints()
+        self.points.SetData(numbers("Points", numpy.empty((0, 3), dtype=numpy.float32 if single else float)))
+        self.arrays: dict[str, Any] = {}
+        self.drawn: dict[str, Any] = {}
+        made = []
+        for number in range(self.header.arrays):
+            array = c.CArray()
+            library.granular_array_at(handle, number, c.byref(array))
+            made.append((c.text(array.name), self._array(array)))
+        self.has_lines = bool(made) and made[0][0] == "ends"
+        if made and made[0][0] in ("ends", "points"):
+            positions = made.pop(0)[1]
+            if positions.GetNumberOfTuples():
+                self.points.SetData(positions)
+        if self.has_lines:
+            own = [made.pop(0) for _ in range(3 if split else 1)]
+            self.drawn = dict(own[1:] + own[:1])
+        self.arrays = dict(made)
+
+    def _array(self, array: c.CArray) -> Any:
+        name = c.text(array.name)
+        values = _to_numpy(self.handle, array)
+        if array.type == c.TEXT:
+            return texts(name, values)
+        if name in ("ends", "points"):
+            made = numbers("Points", values.reshape(-1, 3))
+        else:
+            made = numbers(name, values)
+            made.SetNumberOfComponents(array.components)
+        columns = c.text(array.columns).split()
+        # components of three are axes, and shown as X, Y and Z anyway; others keep the names of the file
+        if len(columns) > 1 and (len(columns) != 3 or "[" in columns[0]):
+            for i, column in enumerate(columns):
+                made.SetComponentName(i, column)
+        if array.range:
+            _set_ranges(made, array.range[:2 * array.components + (2 if array.components > 1 else 0)])
+        return made
+
+    def add_no_lines(self, split: bool) -> None:
+        """Makes the arrays of lines where there are none."""
+        names = {"row": numpy.int64, "part": numpy.int32, "length": float} if split else {"length": float}
+        self.has_lines = True
+        self.drawn = {name: numbers(name, numpy.empty(0, dtype=kind)) for name, kind in names.items()}
+
+    # ---- the header ----
+    def add_header(self, data: Any) -> None:
+        """Adds what a writer and a person need to know of a frame as field data."""
+        header = self.header
+        data.AddArray(texts("Coordinates", [("Absolute", "Unwrapped", "Scaled")[header.coordinates]]))
+        data.AddArray(_row("PointOrigin", header.origin))
+        box = header.box
+        if header.has_box:
+            data.AddArray(_row("BoxOrigin", box.origin))
+            data.AddArray(_row("BoxVectors", box.vectors))
+            if header.box_form != 2:
+                data.AddArray(_row("BoxBounds", box.bounds[:9 if header.box_form == 1 else 6]))
+            data.AddArray(texts("Boundary", [c.text(box.boundary)]))
+        data.AddArray(numbers("timestep", numpy.array([header.timestep], dtype=numpy.int64)))
+        word = c.text(header.row_label)
+        for name, text in (("label", c.text(header.label)), ("RowLabel", word if word != "ATOMS" else ""), ("units", c.text(header.units))):
+            if text:
+                data.AddArray(texts(name, [text]))
+        if header.has_time:
+            data.AddArray(_row("time", [header.time]))
+        if header.dialect:
+            data.AddArray(texts("Dialect", [c.text(header.dialect)]))
+
+    def add_columns(self, data: Any) -> None:
+        """Adds what is known of the columns of a file, behind the header."""
+        header = self.header
+        if header.shape_sizes:
+            data.AddArray(texts("ShapeSizes", ["HalfAxes" if c.text(header.shape_sizes) == "half axes" else "Diameters"]))
+        data.AddArray(texts("Columns", self.columns))
+        if header.digit_count == len(self.columns):
+            made = core.vtkIntArray()
+            made.SetName("ColumnDigits")
+            for digits in header.digits[:header.digit_count]:
+                made.InsertNextValue(digits)
+            data.AddArray(made)
+
+    def fill_box(self, grid: vtkUnstructuredGrid) -> bool:
+        """Makes the box of the frame the one cell of a grid. Returns False if it is not finite."""
+        corners = numpy.array(self.header.box_corners[:]).reshape(8, 3)[[0, 1, 3, 2, 4, 5, 7, 6]]
+        if not numpy.isfinite(corners).all():
+            return False
+        points = core.vtkPoints()
+        points.SetDataTypeToDouble()
+        for corner in corners:
+            points.InsertNextPoint(corner)
+        grid.SetPoints(points)
+        grid.Allocate(1)
+        grid.InsertNextCell(VTK_HEXAHEDRON, 8, range(8))
+        return True
+
+
+def _row(name: str, values: Iterable[float]) -> Any:
+    return numbers(name, numpy.array([list(values)], dtype=float))
+
+
+def cells(count: int, size: int) -> vtkCellArray:
+    """Returns cells of the same size, of which each has points of its own."""
+    made = vtkCellArray()
+    if count * size:
+        kind = numpy.int32 if count * size < 2**31 - 1 else numpy.int64
+        made.SetData(copied(numpy.arange(0, count * size + 1, size, dtype=kind)), copied(numpy.arange(count * size, dtype=kind)))
+    return made
+
+
+def copied(values: Any) -> Any:
+    """Returns an array with memory of its own: a vtkCellArray takes the memory of its arrays, and lets these go."""
+    made = _CLASSES[values.dtype.name]()
+    made.DeepCopy(numbers(None, values))
+    return made

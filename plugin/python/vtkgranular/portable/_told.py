@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors and warnings of a reader, each once."""
+from __future__ import annotations
+
+from typing import Any
+
+from vtkmodules.vtkCommonCore import vtkOutputWindow
+
+from .._library import Remark
+
+_MOST = 10  # lines of one warning
+
+
+class Told:
+    """Tells the messages of an algorithm to whoever watches it, or to VTK's output window, as VTK's macros do."""
+
+    def __init__(self, algorithm: Any):
+        self._algorithm = algorithm
+        self._known: set[tuple[str, str, str]] = set()
+        self._kept: list[str] = []
+
+    def forget(self) -> None:
+        """Begins anew, for other files."""
+        self._known.clear()
+
+    def of_frames(self, remark: Remark) -> None:
+        """Takes a remark on a place in a file, which is new for each line."""
+        self._take(remark, str(remark.line), remark.topic or remark.text)
+
+    def of_rows(self, remark: Remark) -> None:
+        """Takes a remark on a column, or on all rows, which holds for the next frames, too."""
+        self._take(remark, remark.column, remark.topic or ("" if remark.column else remark.text))
+
+    def _take(self, remark: Remark, about: str, what: str) -> None:
+        key = remark.path, about, what
+        if key not in self._known:
+            self._known.add(key)
+            self._kept.append(str(remark))
+
+    def warn(self, text: str) -> None:
+        """Takes a warning of this reader."""
+        if ("", "", text) not in self._known:
+            self._known.add(("", "", text))
+            self._kept.append(text)
+
+    def tell(self) -> None:
+        """Tells what was taken, as one warning."""
+        kept, self._kept = self._kept, []
+        if kept:
+            more = [f"and {len(kept) - _MOST} more"] if len(kept) > _MOST else []
+            self._say("WarningEvent", "\n".join(kept[:_MOST] + more))
+
+    def error(self, text: str) -> None:
+        """Tells an error."""
+        self._say("ErrorEvent", text)
+
+    def _say(self, event: str, text: str) -> None:
+        if self._algorithm.HasObserver(event):
+            self._algorithm.InvokeEvent(event, text)
+            return
+        window = vtkOutputWindow.GetInstance()
+        name = type(self._algorithm).__name__
+        (window.DisplayErrorText if event == "ErrorEvent" else window.DisplayWarningText)(f"{name}: {text}\n")

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prints what a plugin makes of files, as JSON: outputs.py PLUGIN OUT FILE...
+
+Two runs with the compiled and with the portable plugin must print the same: all ports of up to four frames of each file, in each of
+some settings: points, cells, arrays with their types, components and ranges, field data, times and choices of arrays.
+"""
+import hashlib
+import json
+import sys
+
+from paraview import servermanager, simple
+
+plugin, out, *files = sys.argv[1:]
+simple.LoadPlugin(plugin)
+
+import vtkgranular as vg  # noqa: E402 (which the plugin brings along)
+from vtkgranular._options import KINDS, READERS  # noqa: E402
+
+READER_OF = dict(zip(("dump", "local", "restart", "data", "decomposition", "euler"), READERS)) | {"grid": "GranularEulerReader"}
+SETTINGS = {
+    "GranularDumpReader": [{}, {"Coordinates": "Unwrapped", "SortById": 1, "PointOrigin": [0.1, 0.2, 0.3]},
+                           {"Coordinates": "Scaled", "PointPrecision": "Single", "Vertices": "PolyVertex", "TimestepSize": 2e-5},
+                           {"Stride": 3, "RegionOfInterest": [-1e3, 0.05, 1, -1, 1, -1], "Vertices": "None"}],
+    "GranularLocalReader": [{}, {"PeriodicLines": "Split", "TimestepSize": 1e-3}, {"PeriodicLines": "AsWritten", "PointOrigin": [1, 2, 3]}],
+    "GranularRestartReader": [{}, {"PeriodicLines": "Split"}],
+    "GranularDataFileReader": [{}, {"PeriodicLines": "Split", "Stride": 2}, {"Coordinates": "Unwrapped", "SortById": 1}],
+    "GranularDecompositionReader": [{}],
+    "GranularEulerReader": [{}, {"Output": "Points"}],
+}
+
+
+def digest(values):
+    return hashlib.sha256(values).hexdigest()[:16]
+
+
+def of_array(array):
+    if array is None:
+        return None
+    told = [array.GetClassName(), array.GetName(), array.GetNumberOfComponents(), array.GetNumberOfTuples()]
+    told.append([array.GetComponentName(i) for i in range(array.GetNumberOfComponents())])
+    if array.GetClassName() == "vtkStringArray":
+        return [*told, [array.GetValue(i) for i in range(min(array.GetNumberOfValues(), 1000))]]
+    size = array.GetNumberOfValues()
+    told.append(digest(bytes(memoryview(array)) if size else b""))
+    ranges = [array.GetRange(i) for i in range(-1 if array.GetNumberOfComponents() > 1 else 0, array.GetNumberOfComponents())]
+    return [*told, repr(ranges)]
+
+
+def of_cells(cells):
+    if cells is None:
+        return None
+    return [cells.GetNumberOfCells(), *(of_array(each)[4:] + [each.GetClassName()] for each in (cells.GetOffsetsArray(), cells.GetConnectivityArray()))]
+
+
+def of_fields(data):
+    told = {data.GetAbstractArray(i).GetName(): of_array(data.GetAbstractArray(i)) for i in range(data.GetNumberOfArrays())}
+    for name in ("GetScalars", "GetVectors", "GetPedigreeIds"):
+        active = getattr(data, name, lambda: None)()
+        told[name] = active.GetName() if active else None
+    return [list(told), told]
+
+
+def of_data(data):
+    told = {"class": data.GetClassName(), "field": of_fields(data.GetFieldData())}
+    if data.IsA("vtkTable"):
+        return told | {"rows": of_fields(data.GetRowData())}
+    if data.IsA("vtkPartitionedDataSet"):
+        return told | {"parts": [of_data(data.GetPartition(i)) for i in range(data.GetNumberOfPartitions())]}
+    told |= {"points": of_fields(data.GetPointData()), "cells": of_fields(data.GetCellData()), "bounds": repr(data.GetBounds())}
+    if data.IsA("vtkImageData"):
+        return told | {"image": repr([data.GetExtent(), data.GetOrigin(), data.GetSpacing()])}
+    if data.GetPoints():
+        told["place"] = of_array(data.GetPoints().GetData())
+    if data.IsA("vtkPolyData"):
+        return told | {"verts": of_cells(data.GetVerts()), "lines": of_cells(data.GetLines())}
+    return told | {"grid": of_cells(data.GetCells()), "types": [data.GetCellType(i) for i in range(data.GetNumberOfCells())][:100]}
+
+
+told = {}
+for path in files:
+    kind = vg.kind_of(path)
+    name = READER_OF.get(kind)
+    for settings in SETTINGS.get(name, ()) if name in dir(simple) else ():
+        key = f"{path} {settings}"
+        reader = getattr(simple, name)(FileNames=[path])
+        for prop, value in settings.items():
+            setattr(reader, prop, value)
+        reader.UpdatePipelineInformation()
+        times = list(reader.TimestepValues)
+        facts = told[key] = {"times": repr(times), "error": reader.GetPropertyValue("ErrorMessage"), "frames": []}
+        algorithm = reader.GetClientSideObject()
+        for choice in ("PointArrayStatus", "CellArrayStatus"):
+            if reader.SMProxy.GetProperty(choice):
+                facts[choice] = repr(list(reader.GetPropertyValue(choice)))
+        for time in times[:2] + times[-2:]:
+            ports = []
+            for port in range(reader.SMProxy.GetNumberOfOutputPorts()):
+                reader.UpdatePipeline(time)
+                ports.append(of_data(algorithm.GetOutputDataObject(port)))
+            facts["frames"].append([time, ports, reader.GetPropertyValue("ErrorMessage")])
+        simple.Delete(reader)
+
+with open(out, "w", encoding="utf-8") as file:
+    json.dump(told, file, indent=1, sort_keys=True)
+print(len(told), "settings of files")
