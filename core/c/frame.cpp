@@ -269,6 +269,10 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
     view.header.box = make_box(*content.box);
   }
   view.rows = content.rows;
+  if (content.header != nullptr)
+  {
+    this->take_header(*content.header);
+  }
   for (std::size_t i = 0; i < content.array_count; ++i)
   {
     const granular_array& array = content.arrays[i];
@@ -285,10 +289,40 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
     throw ArgumentError("expected 'ends', or 'position1' and 'position2', got both");
   }
   this->finish(kind);
-  if (kind == RowKind::Particles || kind == RowKind::Lines)
+  if (content.header == nullptr && (kind == RowKind::Particles || kind == RowKind::Lines))
   {
     expect_own_columns(view, kind);
   }
+}
+
+void WriteView::take_header(const granular_frame_header& header)
+{
+  const std::string columns = text_of(header.columns);
+  for (const std::string_view word : split_words(columns))
+  {
+    view.columns.emplace_back(word);
+  }
+  if (header.digits != nullptr && header.digit_count == view.columns.size())
+  {
+    view.header.digits.assign(header.digits, header.digits + header.digit_count);
+  }
+  const std::string dialect = text_of(header.dialect);
+  if (!dialect.empty())
+  {
+    view.header.dialect = dialect == "LAMMPS" ? Dialect::Lammps : Dialect::Liggghts;
+  }
+  view.header.label = text_of(header.label);
+  if (!text_of(header.row_label).empty())
+  {
+    view.header.counted = header.row_label;
+  }
+  if (header.coordinates < GRANULAR_ABSOLUTE || header.coordinates > GRANULAR_SCALED)
+  {
+    throw ArgumentError("expected coordinates of granular_coordinates in the header, got " +
+      std::to_string(header.coordinates));
+  }
+  view.coordinates = static_cast<Coordinates>(header.coordinates);
+  std::copy_n(header.origin, 3, view.point_origin.begin());
 }
 
 /// Names the columns of local data, whose ends are arrays like others.

@@ -101,6 +101,7 @@ struct WriteView
   granular::FrameView view;
 
 private:
+  void take_header(const granular_frame_header& header);
   void finish(RowKind kind);
   void add(std::string name, granular::ValueType type, int components, const void* data,
     std::span<const char* const> words);

@@ -458,6 +458,10 @@ typedef struct granular_content
      coordinates beside "points" */
   const granular_array* arrays;
   size_t array_count;
+  /* null, or the header of the frame that the arrays come from, changed or not: its columns and their digits, dialect, label, word for
+     rows, and what the points are: coordinates and origin. Timestep, time, units, box and rows are those above */
+  const granular_frame_header* header;
+  granular_run* run; /* null, or the run that the arrays come from, whose files granular_finish may replace */
 } granular_content;
 
 GRANULAR_API void granular_content_init(granular_content* content);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The functions of granular.h for writing, and for the names of files.
 #include "guard.h"
+#include "run.h"
 #include "writer.h"
 
 #include "granular/bytes/byte_sink.h"
@@ -99,7 +100,16 @@ extern "C"
   granular_status granular_write(granular_writer* writer, const granular_content* content)
   {
     return write_frame(writer, content, "content",
-      [&] { return WriteView(taken(content, granular_content_init), writer->kind); });
+      [&]
+      {
+        const granular_content given = taken(content, granular_content_init);
+        if (given.run != nullptr)
+        {
+          const std::shared_lock lock(given.run->mutex);
+          writer->add_inputs(given.run->shared_index);
+        }
+        return WriteView(given, writer->kind);
+      });
   }
 
   granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame)
@@ -115,7 +125,7 @@ extern "C"
             names[static_cast<std::size_t>(writer->kind)] + " for this style, got one of " +
             names[static_cast<std::size_t>(frame->kind)]);
         }
-        writer->add_inputs(*frame);
+        writer->add_inputs(frame->index);
         return WriteView(*frame);
       });
   }

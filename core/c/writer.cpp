@@ -256,12 +256,12 @@ std::unique_ptr<granular_writer> create_writer(
 }
 }
 
-void granular_writer::add_inputs(const granular_frame& frame)
+void granular_writer::add_inputs(const std::shared_ptr<const granular::RunIndex>& other)
 {
-  if (frame.index && frame.index != index)
+  if (other && other != index)
   {
-    inputs.add(*frame.index);
-    index = frame.index;
+    inputs.add(*other);
+    index = other;
   }
 }
 

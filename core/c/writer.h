@@ -19,8 +19,8 @@ struct granular_writer
   /// Throws ArgumentError unless at least one frame was written, and all of them whole.
   void expect_frames() const;
 
-  /// Adds the files that a frame comes from to those that are read meanwhile.
-  void add_inputs(const granular_frame& frame);
+  /// Adds the files of a run, which a frame comes from, to those that are read meanwhile.
+  void add_inputs(const std::shared_ptr<const granular::RunIndex>& other);
 
   const granular_c::RowKind kind;
   const std::string path;

@@ -153,7 +153,8 @@ class Format(Structure):
 
 class Content(Structure):
     _fields_ = [("size", c_size_t), ("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("units", c_char_p),
-                ("box", POINTER(CBox)), ("rows", c_int64), ("arrays", POINTER(CArray)), ("array_count", c_size_t)]
+                ("box", POINTER(CBox)), ("rows", c_int64), ("arrays", POINTER(CArray)), ("array_count", c_size_t),
+                ("header", POINTER(FrameHeader)), ("run", c_void_p)]
 
 
 _NAMES = POINTER(c_char_p)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from ._proxies import define
 from ._readers import READERS
+from ._writers import WRITERS
 
-definitions = define({**READERS})
-globals().update({made.__name__: made for made in READERS.values()})  # where the definitions say they are
+_classes = {**READERS, **WRITERS}
+definitions = define(_classes)
+globals().update({made.__name__: made for made in _classes.values()})  # where the definitions say they are

@@ -2,6 +2,7 @@
 """The ranks of ParaView for the C library."""
 from __future__ import annotations
 
+import pickle
 from typing import Any
 
 import numpy
@@ -10,6 +11,8 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from .. import _library as c
+
+_TAG = 5120  # of messages with rows
 
 
 class _Controller:
@@ -36,3 +39,39 @@ def ranks_of_paraview() -> _Controller | None:
     """Returns the ranks of the global controller, or None for a single one."""
     controller = vtkMultiProcessController.GetGlobalController()
     return _Controller(controller) if controller and controller.GetNumberOfProcesses() > 1 else None
+
+
+def is_first() -> bool:
+    """Returns true on the first rank, or where there is one."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    return not controller or controller.GetLocalProcessId() == 0
+
+
+def gather(mine: Any) -> list[Any]:
+    """Returns the objects of all ranks, by rank, on the first one; nothing on the others."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    if not controller or controller.GetNumberOfProcesses() < 2:
+        return [mine]
+    if controller.GetLocalProcessId():
+        controller.Send(_bytes_to_vtk(pickle.dumps(mine)), 0, _TAG)
+        return []
+    received = vtkUnsignedCharArray()
+    made = [mine]
+    for rank in range(1, controller.GetNumberOfProcesses()):
+        controller.Receive(received, rank, _TAG)
+        made.append(pickle.loads(vtk_to_numpy(received).tobytes()))
+    return made
+
+
+def share(mine: Any) -> Any:
+    """Returns the object of the first rank on all ranks."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    if not controller or controller.GetNumberOfProcesses() < 2:
+        return mine
+    array = _bytes_to_vtk(pickle.dumps(mine)) if is_first() else vtkUnsignedCharArray()
+    controller.Broadcast(array, 0)
+    return pickle.loads(vtk_to_numpy(array).tobytes())
+
+
+def _bytes_to_vtk(data: bytes) -> Any:
+    return numpy_to_vtk(numpy.frombuffer(data, dtype=numpy.uint8), deep=True)

@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The writers: data of the pipeline as files, by the C library."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Iterator
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonCore import vtkInformationVector
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+from .. import _library as c
+from .._write import _c_arrays
+from ._ranks import gather, is_first, share
+from ._readers import Reader
+from ._told import Told
+
+_COORDINATES = ("Absolute", "Unwrapped", "Scaled")
+_DUPLICATE = 1  # of vtkGhostType
+
+
+class Rows:
+    """What a rank writes of a frame: arrays by their names, and what field data tell of the frame."""
+
+    def __init__(self, data: Any):
+        self.arrays: dict[str, Any] = {}
+        self.told: list[str] = []
+        self.facts = {name: _values(data.GetFieldData().GetAbstractArray(name)) for name in (
+            "Columns", "ColumnDigits", "Dialect", "label", "RowLabel", "units", "timestep", "time", "Coordinates", "PointOrigin", "BoxOrigin",
+            "BoxVectors", "BoxBounds", "Boundary")}
+
+    def see(self, attributes: Any, count: int) -> None:
+        """Takes all arrays of attributes, with a value for each of so many rows."""
+        for i in range(attributes.GetNumberOfArrays()):
+            array = attributes.GetAbstractArray(i)
+            name = array.GetName()
+            if name == vtkDataSetAttributes.GhostArrayName():
+                continue
+            if not name or not (array.IsA("vtkDataArray") or array.IsA("vtkStringArray")):
+                self.told.append(f"the array '{name}' of the type {array.GetDataTypeAsString()} is left out" if name else
+                                 "an array without a name is left out")
+                continue
+            if array.GetNumberOfTuples() != count:
+                raise c.Error(f"column '{name}': expected a value for each of {count} rows, got {array.GetNumberOfTuples()}")
+            self.arrays[name] = _values(array)
+
+    def keep(self, mask: Any) -> None:
+        """Keeps some rows."""
+        self.arrays = {name: values[mask] for name, values in self.arrays.items()}
+
+    def __len__(self) -> int:
+        return len(next(iter(self.arrays.values()), ()))
+
+
+def _values(array: Any) -> Any:
+    """Returns the values of an array of VTK, or None."""
+    if array is None:
+        return None
+    if array.IsA("vtkStringArray"):
+        return numpy.array([array.GetValue(i) for i in range(array.GetNumberOfValues())], dtype=str)
+    values = vtk_to_numpy(array)
+    return values.reshape(-1, array.GetNumberOfComponents()) if array.GetNumberOfComponents() > 1 else values
+
+
+class Writer(VTKPythonAlgorithmBase):
+    """Base of the writers: the frames of the input, the ranks, and the file."""
+
+    style = ""
+    defaults: dict[str, Any] = {}
+
+    def __init__(self) -> None:
+        super().__init__(nInputPorts=1, nOutputPorts=0, inputType="vtkDataObject")
+        self.values = dict(self.defaults)
+        self._path, self._ghosts, self._message, self._written = "", 0, "", 0
+        self._told = Told(self)
+
+    def SetFileName(self, name: str) -> None:
+        self._path = name or ""
+
+    def SetGhostLevel(self, level: int) -> None:
+        self._ghosts = level
+
+    def GetWritten(self) -> int:
+        return self._written
+
+    def GetErrorMessage(self) -> str:
+        return self._message
+
+    def Write(self) -> int:
+        self._written, self._message = 0, ""
+        self._told.forget()
+        try:
+            self._write()
+            self._written = 1
+        except (c.Error, OSError, MemoryError) as error:
+            self._message = str(error)
+            self._told.error(self._message)
+        except c.Cancelled:
+            pass
+        self._told.tell()
+        return self._written
+
+    # ---- the input ----
+    def _frames(self) -> Iterator[tuple[Any, float | None, float | None]]:
+        """Yields the data of each frame, its time, and its time as a timestep where those of all frames are whole."""
+        if not self.GetNumberOfInputConnections(0):
+            raise c.Error("no input: expected points to write")
+        connection = self.GetInputConnection(0, 0)
+        source, port = connection.GetProducer(), connection.GetIndex()
+        controller = vtkMultiProcessController.GetGlobalController()
+        source.UpdateInformation()
+        info = source.GetOutputInformation(port)
+        all_times = list(info.Get(Pipeline.TIME_STEPS()) or ()) if info.Has(Pipeline.TIME_STEPS()) else []
+        times = all_times if self.values["WriteTimeSteps"] else []
+        shown = info.Get(Pipeline.UPDATE_TIME_STEP()) if info.Has(Pipeline.UPDATE_TIME_STEP()) else None
+        for time in times or [None]:
+            requests = vtkInformationVector()
+            requests.SetNumberOfInformationObjects(port + 1)
+            request = requests.GetInformationObject(port)
+            if time is not None:
+                info.Set(Pipeline.UPDATE_TIME_STEP(), time)
+            request.Set(Pipeline.UPDATE_PIECE_NUMBER(), controller.GetLocalProcessId() if controller else 0)
+            request.Set(Pipeline.UPDATE_NUMBER_OF_PIECES(), controller.GetNumberOfProcesses() if controller else 1)
+            request.Set(Pipeline.UPDATE_NUMBER_OF_GHOST_LEVELS(), self._ghosts)
+            made, data = source.Update(port, requests), source.GetOutputDataObject(port)
+            if not made or data is None:
+                raise c.Error(f"{c.shown(self._path)}: the input could not be made, and nothing is written: see the messages before")
+            there = data.GetInformation()
+            now = there.Get(vtkDataObject.DATA_TIME_STEP()) if there.Has(vtkDataObject.DATA_TIME_STEP()) else None
+            whole = all(each == int(each) for each in times) if times else now is not None and now == int(now)
+            yield data, now, (time if times else now) if whole else None
+        if times and shown is not None:
+            info.Set(Pipeline.UPDATE_TIME_STEP(), shown)
+            source.Update(port)
+
+    def _runs(self) -> list[Any]:
+        """The runs of all readers upstream."""
+        found = [self]
+        for algorithm in found:  # which grows
+            for port in range(algorithm.GetNumberOfInputPorts()):
+                for i in range(algorithm.GetNumberOfInputConnections(port)):
+                    before = algorithm.GetInputAlgorithm(port, i)
+                    if before not in found:
+                        found.append(before)
+        return [each._run for each in found if isinstance(each, Reader) and each._run]
+
+    def take(self, data: Any) -> Rows:
+        """Takes this rank's rows of a frame."""
+        raise NotImplementedError
+
+    # ---- the file ----
+    def format(self) -> c.Format:
+        """Returns the format of the file by the properties."""
+        made, values = c.Format(), self.values
+        c.library().granular_format_init(c.byref(made))
+        made.style = self.style.encode()
+        for field, name in (("numbers", "NumberFormat"), ("columns", "Columns"), ("label", "Label")):
+            if values.get(name):
+                setattr(made, field, values[name].encode())
+        made.dialect = (b"LIGGGHTS", b"LAMMPS", b"")[values["Dialect"]]
+        for field, name in (("scaled", "Scaled"), ("image", "Image"), ("sort_by_id", "SortById"), ("write_units", "WriteUnits"),
+                            ("write_time", "WriteTime"), ("threads", "Threads"), ("durable", "Durable")):
+            if name in values:
+                setattr(made, field, int(values[name]))
+        return made
+
+    def _write(self) -> None:
+        if not self._path:
+            raise c.Error("no file to write: set FileName first")
+        library, pointer = c.library(), c.c_void_p()
+        calls = c.Calls(self._progress, self._told.of_rows)
+        try:
+            for number, (data, time, step) in enumerate(self._frames()):
+                own: Any
+                try:
+                    own = self.take(data)
+                except c.Error as error:
+                    own = error
+                parts = gather(own)
+                failure: Any = next((part for part in parts if isinstance(part, Exception)), None)
+                if is_first() and failure is None:
+                    try:
+                        with calls:
+                            if not pointer:
+                                given = self.format()
+                                given.progress, given.notice = calls.progress, calls.notice
+                                library.granular_create(c.name_bytes(self._path), c.byref(given), c.byref(pointer))
+                            self._write_frame(pointer, parts, number, time, step)
+                    except (c.Error, OSError, MemoryError, c.Cancelled) as error:
+                        failure = error
+                failure = share(failure)
+                if failure is not None:
+                    raise failure
+            failure = None
+            if is_first():
+                try:
+                    done, pointer = pointer, c.c_void_p()
+                    library.granular_finish(done)
+                except (c.Error, OSError, MemoryError) as error:
+                    failure = error
+            failure = share(failure)
+            if failure is not None:
+                raise failure
+        finally:
+            if pointer:
+                library.granular_abandon(pointer)
+
+    def _progress(self, fraction: float) -> bool:
+        self.UpdateProgress(fraction)
+        return not self.GetAbortExecute()
+
+    def _write_frame(self, pointer: Any, parts: list[Rows], number: int, time: float | None, step: float | None) -> None:
+        """Writes the rows of all ranks, with the facts of the first one that has any."""
+        filled = [part for part in parts if len(part)] or parts[:1]
+        known = filled[0]
+        for text in (text for part in filled for text in part.told):
+            self._told.warn(text)
+        arrays = {name: values if len(filled) == 1 else numpy.concatenate([part.arrays[name] for part in filled])
+                  for name, values in known.arrays.items()}
+        given, rows, kept = _c_arrays(arrays)
+        content, header = c.Content(), c.FrameHeader()
+        c.library().granular_content_init(c.byref(content))
+        content.arrays, content.array_count, content.rows = given, len(arrays), rows
+        facts, content.header = known.facts, ctypes.pointer(header)
+        if facts["timestep"] is not None and len(facts["timestep"]) == 1 and facts["timestep"][0] == int(facts["timestep"][0]):
+            content.timestep = int(facts["timestep"][0])
+        else:
+            self._told.warn("the input has no field data 'timestep': " + ("its time is taken for it" if step is not None else
+                                                                         "frames are counted from 0"))
+            content.timestep = int(step) if step is not None else number
+        of_file = facts["time"] is not None and len(facts["time"]) == 1
+        content.has_time = int(of_file or time is not None)
+        content.time = float(facts["time"][0]) if of_file else float(time or 0)
+        self._fill_header(header, facts, kept)
+        content.units = header.units
+        box = self.box(facts)
+        if box is not None:
+            content.box = ctypes.pointer(box)
+        for run in self._runs():
+            content.run = run._handle._as_parameter_
+        c.library().granular_write(pointer, c.byref(content))
+
+    @staticmethod
+    def _fill_header(header: c.FrameHeader, facts: dict[str, Any], kept: list[Any]) -> None:
+        def text(name: str) -> bytes:
+            return str(facts[name][0]).encode() if facts[name] is not None and len(facts[name]) else b""
+
+        columns = [] if facts["Columns"] is None else [str(name) for name in facts["Columns"]]
+        header.columns = " ".join(columns).encode()
+        if facts["ColumnDigits"] is not None and len(facts["ColumnDigits"]) == len(columns):
+            digits = (c.c_int * max(1, len(columns)))(*map(int, facts["ColumnDigits"]))
+            header.digits, header.digit_count = digits, len(columns)
+            kept.append(digits)
+        dialect = text("Dialect")
+        header.dialect = dialect if dialect in (b"LAMMPS", b"LIGGGHTS") else b""
+        header.label, header.row_label, header.units = text("label"), text("RowLabel"), text("units")
+        coordinates = text("Coordinates").decode()
+        header.coordinates = _COORDINATES.index(coordinates) if coordinates in _COORDINATES else 0
+        if facts["PointOrigin"] is not None and facts["PointOrigin"].size == 3:
+            header.origin[:] = facts["PointOrigin"].ravel().tolist()
+
+    def box(self, facts: dict[str, Any]) -> c.CBox | None:
+        """Returns the box that is written."""
+        box, boundary = c.CBox(), facts["Boundary"]
+        origin, vectors, bounds = (facts[name] for name in ("BoxOrigin", "BoxVectors", "BoxBounds"))
+        box.boundary = str(boundary[0]).encode() if boundary is not None and len(boundary) else b""
+        if origin is None or vectors is None or origin.size != 3 or vectors.size != 9:
+            return None
+        box.origin[:], box.vectors[:] = origin.ravel().tolist(), vectors.ravel().tolist()
+        if bounds is not None and bounds.size in (6, 9):
+            exact = c.CBox()
+            exact.has_bounds, exact.bounds[:bounds.size] = 1, bounds.ravel().tolist()
+            c.library().granular_complete_box(c.byref(exact))
+            if exact.origin[:] == box.origin[:] and exact.vectors[:] == box.vectors[:]:
+                box.has_bounds, box.bounds[:] = 1, exact.bounds[:]
+        return box
+
+
+class GranularDumpWriter(Writer):
+    def take(self, data: Any) -> Rows:
+        if not data.IsA("vtkPointSet"):
+            raise c.Error(f"{c.shown(self._path)}: expected a vtkPointSet to write, got a {data.GetClassName()}")
+        rows, count = Rows(data), data.GetNumberOfPoints()
+        if data.GetPoints():
+            rows.arrays["points"] = vtk_to_numpy(data.GetPoints().GetData()).reshape(-1, 3)
+        rows.see(data.GetPointData(), count)
+        ghosts = data.GetPointGhostArray()
+        if ghosts:
+            rows.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+        return rows
+
+    def format(self) -> c.Format:
+        if self.values["Style"] == 1 and (not self.values["Scaled"] or self.values["Image"]):
+            self._told.warn("Scaled and Image are of the Style Atom: this is Custom, see Columns")
+        if self.values["Style"] == 0 and self.values["Columns"]:
+            self._told.warn("Columns are of the Style Custom: this is Atom")
+        made = super().format()
+        made.style = (b"atom", b"custom")[self.values["Style"]]
+        return made
+
+    def box(self, facts: dict[str, Any]) -> c.CBox | None:
+        box, vectors = super().box(facts), self.values["BoxVectors"]
+        flags = self.values["Boundary"].encode() or (box.boundary if box else b"")
+        if any(vectors):
+            box = c.CBox()
+            box.origin[:], box.vectors[:] = self.values["BoxOrigin"], vectors
+        if box is not None:
+            box.boundary = flags
+        return box
+
+
+WRITERS = {"vtkGranularDumpWriter": GranularDumpWriter}
