@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints what a plugin makes of files, as JSON: outputs.py PLUGIN OUT FILE...
+"""Writes what a plugin makes of files: outputs.py PLUGIN FOLDER FILE...
 
-Two runs with the compiled and with the portable plugin must print the same: all ports of up to four frames of each file, in each of
-some settings: points, cells, arrays with their types, components and ranges, field data, times and choices of arrays.
+FOLDER/outputs.json has all ports of up to four frames of each file, in each of some settings: points, cells, arrays with their types,
+components and ranges, field data, times and choices of arrays. Beside it are files that the writers made of some of them.
 """
 import hashlib
 import json
+import os
 import sys
 
 from paraview import servermanager, simple
 
-plugin, out, *files = sys.argv[1:]
+plugin, folder, *files = sys.argv[1:]
 simple.LoadPlugin(plugin)
 
 import vtkgranular as vg  # noqa: E402 (which the plugin brings along)
@@ -100,6 +101,20 @@ for path in files:
             facts["frames"].append([time, ports, reader.GetPropertyValue("ErrorMessage")])
         simple.Delete(reader)
 
-with open(out, "w", encoding="utf-8") as file:
+# Each writer: the frames of one file, text, packed and binary, and with settings that change the bytes.
+WRITTEN = {"GranularDumpReader": [("text.dump", {}), ("packed.dump.gz", {}), ("binary.bin", {}), ("sorted.dump", {"SortById": 1, "NumberFormat": "%g"}),
+                                  ("atom.dump", {"Style": "Atom", "Scaled": 0, "Image": 1, "WriteTime": 1})]}
+written = set()
+for path in files:
+    name = READER_OF.get(vg.kind_of(path))
+    for ending, settings in WRITTEN.get(name, ()):
+        if len(written) >= 40 or name not in dir(simple):
+            break
+        reader = getattr(simple, name)(FileNames=[path])
+        target = os.path.join(folder, f"{os.path.basename(path)}.{ending}")
+        written.add(target)
+        simple.SaveData(target, proxy=reader, WriteTimeSteps=1, **settings)
+        simple.Delete(reader)
+
+with open(os.path.join(folder, "outputs.json"), "w", encoding="utf-8") as file:
     json.dump(told, file, indent=1, sort_keys=True)
-print(len(told), "settings of files")
