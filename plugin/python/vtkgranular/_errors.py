@@ -52,7 +52,8 @@ def raised(sources: list[Any]) -> Iterator[None]:
 
     On a server its messages are printed there as well.
     """
-    from . import vtkGranular  # noqa: F401 (whose classes Python must know before it sees one of their objects)
+    with contextlib.suppress(ImportError):  # there are none beside the portable plugin
+        from . import vtkGranular  # noqa: F401 (whose classes Python must know before it sees one of their objects)
 
     tags = []
     for source in sources:

@@ -39,8 +39,9 @@ def _plugin_beside_package(servermanager: Any) -> str:
     version = servermanager.vtkSMProxyManager
     paraview = f"{version.GetVersionMajor()}.{version.GetVersionMinor()}"
     path = os.path.join(LIBRARY_FOLDER, f"paraview-{paraview}", "plugins", "Granular", "Granular.so")
-    if os.path.isfile(path):
-        return path
+    portable = os.path.join(os.path.dirname(__file__), "portable", "Granular.py")
+    if os.path.isfile(path) or os.path.isfile(portable):
+        return path if os.path.isfile(path) else portable
     others = glob.glob(os.path.join(glob.escape(LIBRARY_FOLDER), "paraview-*", "plugins", "Granular", "Granular.so"))
     found = ", ".join(sorted(others)) or "none"
     raise FileNotFoundError(f"expected a plugin for this ParaView, {paraview}, in {path}, got {found}: build it again with "
@@ -48,7 +49,8 @@ def _plugin_beside_package(servermanager: Any) -> str:
 
 
 def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
-    """Loads the ParaView plugin of this package and returns its path.
+    """Loads the ParaView plugin of this package and returns its path: the one compiled for the version of ParaView that runs, else the
+    portable one, which has the readers and writers.
 
     ns      globals() if `from paraview.simple import *` came first: the names are added there.
     remote  True: loads it on the server of a connection, where it must have the same path.

@@ -137,13 +137,14 @@ class Reader(VTKPythonAlgorithmBase):
 
     def _guarded(self, work: Callable[[], None], outputs: Any) -> int:
         """Does a part of an update. An error empties the outputs and is told once."""
+        self._told.watch()
         try:
             work()
-        except (c.Error, OSError, MemoryError) as error:
-            self._message = str(error)
         except c.Cancelled:
             self._message = ""
             self.Modified()
+        except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
+            self._message = str(error) or type(error).__name__
         else:
             self._message = ""
             self._told.tell()

@@ -11,6 +11,15 @@ from .._library import Remark
 _MOST = 10  # lines of one warning
 
 
+def _pass_on(_: Any, __: str, text: str) -> None:
+    """Passes on what an executive says, but what follows from an error that was told."""
+    if "returned failure for request" not in text and "No whole extent has been set" not in text:
+        vtkOutputWindow.GetInstance().DisplayErrorText(text)
+
+
+_pass_on.CallDataType = "string0"  # type: ignore[attr-defined]
+
+
 class Told:
     """Tells the messages of an algorithm to whoever watches it, or to VTK's output window, as VTK's macros do."""
 
@@ -18,6 +27,14 @@ class Told:
         self._algorithm = algorithm
         self._known: set[tuple[str, str, str]] = set()
         self._kept: list[str] = []
+        self._watched: Any = None
+
+    def watch(self) -> None:
+        """Watches the executive of the algorithm, of which ParaView gives it another one than it has at first."""
+        executive = self._algorithm.GetExecutive()
+        if executive is not self._watched:
+            self._watched = executive
+            executive.AddObserver("ErrorEvent", _pass_on)
 
     def forget(self) -> None:
         """Begins anew, for other files."""

@@ -96,11 +96,11 @@ class Writer(VTKPythonAlgorithmBase):
         try:
             self._write()
             self._written = 1
-        except (c.Error, OSError, MemoryError) as error:
-            self._message = str(error)
-            self._told.error(self._message)
         except c.Cancelled:
             pass
+        except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
+            self._message = str(error) or type(error).__name__
+            self._told.error(self._message)
         self._told.tell()
         return self._written
 
@@ -178,7 +178,7 @@ class Writer(VTKPythonAlgorithmBase):
                 own: Any
                 try:
                     own = self.take(data)
-                except c.Error as error:
+                except Exception as error:  # noqa: BLE001 (raised on all ranks)
                     own = error
                 parts = gather(own)
                 failure: Any = next((part for part in parts if isinstance(part, Exception)), None)
@@ -190,7 +190,7 @@ class Writer(VTKPythonAlgorithmBase):
                                 given.progress, given.notice = calls.progress, calls.notice
                                 library.granular_create(c.name_bytes(self._path), c.byref(given), c.byref(pointer))
                             self._write_frame(pointer, parts, number, time, step)
-                    except (c.Error, OSError, MemoryError, c.Cancelled) as error:
+                    except Exception as error:  # noqa: BLE001 (raised on all ranks)
                         failure = error
                 failure = share(failure)
                 if failure is not None:
@@ -200,7 +200,7 @@ class Writer(VTKPythonAlgorithmBase):
                 try:
                     done, pointer = pointer, c.c_void_p()
                     library.granular_finish(done)
-                except (c.Error, OSError, MemoryError) as error:
+                except Exception as error:  # noqa: BLE001 (raised on all ranks)
                     failure = error
             failure = share(failure)
             if failure is not None:
