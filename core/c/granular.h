@@ -105,7 +105,7 @@ typedef GRANULAR_ENUM(granular_kind)
   GRANULAR_KIND_GRID = 6          /* dump grid: cells */
 } granular_kind;
 
-/* Sets *kind by the contents of a file; GRANULAR_KIND_AUTOMATIC for none of these kinds, or no file. */
+/* Sets *kind by the contents of a file; GRANULAR_KIND_AUTOMATIC for none of these kinds (granular_open says what it is), or no file. */
 GRANULAR_API granular_status granular_find_kind(const char* path, granular_kind* kind);
 
 /* Ranks that open and read together. all_gather is called with the same number of bytes on each rank, and stores those of all in `all`, in

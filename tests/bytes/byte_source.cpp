@@ -67,7 +67,7 @@ TEST_F(OpenFile, EmptyFile)
 
 TEST_F(OpenFile, RefusesWhatIsNoFile)
 {
-  expect_refused(this->path("."), "expected a file, got a directory");
+  expect_refused(this->path("."), "expected a file, got a directory: name the files in it");
   expect_refused(this->path("missing"), "cannot open: No such file or directory");
   expect_refused(this->write("file", "") + "/below", "cannot open: Not a directory");
   expect_refused("/dev/null", "expected a file, got a device or a pipe");

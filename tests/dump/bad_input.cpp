@@ -21,8 +21,10 @@ struct Bad
 
 // Found when the file is opened.
 constexpr Bad when_opened[] = {
-  { "empty.dump", ": expected a dump, got an empty file" },
-  { "garbage.dump", ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'Step Atoms KinEng Volume'" },
+  { "empty.dump",
+    ": expected a dump, got an empty file: its program has written nothing to it yet" },
+  { "garbage.dump",
+    ": expected a dump, got a thermo table: vtkgranular.read_log reads it in Python" },
   { "no_header.dump", ":1: expected ITEM: TIMESTEP, UNITS or TIME, got '1 1 0.1 0.2 0.3'" },
   { "local.dump", ":3: expected ITEM: NUMBER OF ATOMS, got 'ITEM: NUMBER OF ENTRIES'" },
   { "no_timestep.dump", ":9: expected ITEM: TIMESTEP before ITEM: ATOMS, got none" },

@@ -55,7 +55,8 @@ TEST(ReaderErrors, Directory)
   Reader reader({ GRANULAR_OUTPUT });
   reader->Update();
   ASSERT_EQ(reader.Said->Errors.size(), 1u);
-  EXPECT_EQ(reader.Said->Errors[0], GRANULAR_OUTPUT ": expected a file, got a directory");
+  EXPECT_EQ(reader.Said->Errors[0],
+    GRANULAR_OUTPUT ": expected a file, got a directory: name the files in it");
   EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::CannotOpenFileError));
   ExpectGood(reader);
 }

@@ -64,7 +64,7 @@ void expect_shown(const std::string& shown, const std::string& path)
 std::map<std::string, std::string> no_files(const std::string& folder)
 {
   const std::string device = "expected a file, got a device or a pipe";
-  const std::string directory = "expected a file, got a directory";
+  const std::string directory = "expected a file, got a directory: name the files in it";
   ::mkfifo((folder + "/pipe").c_str(), 0644);
   fs::create_directory(folder + "/folder");
   const std::pair<const char*, const char*> links[] = { { "pipe", "to_pipe" },

@@ -83,7 +83,7 @@ bound = socket.socket(socket.AF_UNIX)
 bound.bind("socket")
 for target, link in (("pipe", "to_pipe"), ("folder", "to_folder"), ("loop", "loop"), ("none", "dangling")):
     os.symlink(target, link)
-DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory"
+DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory: name the files in it"
 for place, why in {"pipe": DEVICE, "to_pipe": DEVICE, "socket": DEVICE, "/dev/null": DEVICE, "/dev/zero": DEVICE, "/dev/full": DEVICE,
                    "folder": FOLDER, "folder/": FOLDER, "to_folder": FOLDER, "loop": "Too many levels", "dangling": "No such file"}.items():
     expect_error(OSError, lambda: vg.open(place), why)  # noqa: B023

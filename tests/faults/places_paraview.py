@@ -80,7 +80,7 @@ os.remove(odd)
 os.mkfifo("pipe")
 os.mkdir("folder")
 socket.socket(socket.AF_UNIX).bind("socket")
-DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory"
+DEVICE, FOLDER = "expected a file, got a device or a pipe", "expected a file, got a directory: name the files in it"
 for place, why in {"pipe": DEVICE, "folder": FOLDER, "socket": "cannot open: ", "/dev/null": DEVICE, "/dev/zero": DEVICE}.items():
     expect_error(RuntimeError, lambda: vg.reader(os.path.join(HERE, place)), why)  # noqa: B023
     os.symlink(place, "link.dump")

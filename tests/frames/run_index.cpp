@@ -294,9 +294,11 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
     "expected the format of the files in the options, got none");
   EXPECT_EQ(
     error(folder.path("none")), folder.path("none") + ": cannot open: No such file or directory");
-  EXPECT_EQ(error(folder.path("")), folder.path("") + ": expected a file, got a directory");
+  EXPECT_EQ(error(folder.path("")),
+    folder.path("") + ": expected a file, got a directory: name the files in it");
   const std::string empty = folder.write("empty", "");
-  EXPECT_EQ(error(empty), empty + ": expected a dump, got an empty file");
+  EXPECT_EQ(error(empty),
+    empty + ": expected a dump, got an empty file: its program has written nothing to it yet");
   const std::string blank = folder.write("blank", "\n \n");
   EXPECT_EQ(error(blank), blank + ": expected a dump, got no complete frame");
   const std::string garbage = folder.write("garbage",
@@ -307,8 +309,9 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
   const std::string bzip2 = folder.write("dump.bz2", "BZh91AY&SY\x01\x02");
   EXPECT_EQ(error(bzip2),
     bzip2 +
-      ": expected a dump, plain or packed by gzip or Zstandard, got one packed by bzip2: unpack it "
-      "first");
+      ": expected a dump, got a file packed by bzip2: unpack it first; only gzip and Zstandard "
+      "need no "
+      "unpacking");
   const std::string zeros = folder.write("zeros", std::string(5'000'000, '\0'));
   EXPECT_EQ(error(zeros),
     zeros + "@92: expected 1 to 5000 columns, got 0; no known layout of a binary dump fits");

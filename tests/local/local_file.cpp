@@ -156,9 +156,11 @@ TEST(LocalFile, Labels)
 
 TEST(LocalFile, BadInput)
 {
-  EXPECT_EQ(text_error(""), ": expected a dump of local data, got an empty file");
+  EXPECT_EQ(text_error(""),
+    ": expected a dump of local data, got an empty file: its program has written nothing to it "
+    "yet");
   EXPECT_EQ(text_error("Step Atoms KinEng\n"),
-    ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'Step Atoms KinEng'");
+    ": expected a dump of local data, got a thermo table: vtkgranular.read_log reads it in Python");
   EXPECT_EQ(text_error("a data file\n\n2 atoms\n1 bonds\n"),
     ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'a data file'");
   EXPECT_EQ(text_error("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\n"),

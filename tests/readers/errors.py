@@ -103,7 +103,7 @@ CASES = (
      (31, 27, 1)),
     (reader("Restart", "restart.many"), "many@1394: expected a number of bonds from 0 to 2.*in record 2 of particle 2", RESTART,
      (31, 27, 1)),
-    (reader("Restart", "restart.lammps"), "LAMMPS.*restart2dump", RESTART, (31, 27, 1)),
+    (reader("Restart", "restart.lammps"), "LAMMPS.*restart2data", RESTART, (31, 27, 1)),
     (reader("Restart", "restart.base.7"), "restart.0.7: expected", RESTART, (31, 27, 1)),
     (reader("Euler", "gone.vtk"), "gone.vtk: cannot open", CELLS, (112,)),
     (reader("Euler", "word_1.vtk"), "word_1.vtk:[0-9]+: ", CELLS, (112,)),

@@ -36,8 +36,8 @@ inline FileStamp stamp_of_status(const struct stat& status) noexcept
 /// Throws IoError for a directory, or for something else that is not a regular file.
 [[noreturn]] inline void refuse_no_file(const std::string& path, bool is_folder)
 {
-  throw IoError(
-    std::string("expected a file, got ") + (is_folder ? "a directory" : "a device or a pipe"),
+  throw IoError(std::string("expected a file, got ") +
+      (is_folder ? "a directory: name the files in it" : "a device or a pipe"),
     { path }, is_folder ? std::errc::is_a_directory : std::errc::not_supported);
 }
 }

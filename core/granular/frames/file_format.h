@@ -48,6 +48,7 @@ struct FileFormat
   /// they tell nothing; may be null. May throw Error.
   std::vector<std::int64_t> (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
 
+  bool reads_vtk = false; ///< says itself which VTK files it cannot read
   bool large_runs =
     false; ///< of so many or large files that several ranks look through them together
 };

@@ -2,6 +2,7 @@
 #include "granular/frames/file_index.h"
 
 #include "granular/common/hash.h"
+#include "granular/frames/other_files.h"
 
 #include <algorithm>
 #include <array>
@@ -42,30 +43,6 @@ FileIndex blank(const FileIndex& index)
   fresh.kinds = index.kinds;
   fresh.format = index.format;
   return fresh;
-}
-
-/// Other packings of LAMMPS, by the first bytes.
-// clang-format off
-constexpr std::pair<std::string_view, const char*> other_packings[] = {
-  { "\xfd" "7zXZ", "xz" },
-  { "BZh", "bzip2" },
-  { "\x04\x22\x4d\x18", "lz4" },
-};
-// clang-format on
-
-void refuse_other_packings(const FileFormat& format, const ByteSource& source)
-{
-  std::array<char, 8> first;
-  const std::string_view first_bytes(first.data(), source.read(0, first.data(), first.size()));
-  for (const auto& [magic, name] : other_packings)
-  {
-    if (first_bytes.starts_with(magic))
-    {
-      throw UnsupportedError(std::string("expected ") + format.name +
-          ", plain or packed by gzip or Zstandard, got one packed by " + name + ": unpack it first",
-        { source.path() });
-    }
-  }
 }
 
 /// The text behind the last frame that was kept is looked at each time that the file has grown: what
@@ -126,7 +103,10 @@ void update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
   index.compressed = source->compressed();
-  refuse_other_packings(*index.format, *source);
+  if (index.frames.empty())
+  {
+    refuse_other(*source, index.format->name, index.format->reads_vtk);
+  }
   index.format->index(*source, index, progress, ahead);
   drop_repeated(index.notices, known);
   index.unchecked = source->unchecked();
@@ -146,7 +126,8 @@ void update(FileIndex& index, const std::vector<std::string>& column_names, Prog
     set_defect(index,
       { { index.path },
         std::string("expected ") + index.format->name + ", got " +
-          (stamp.size == 0 ? "an empty file" : "no complete frame") });
+          (stamp.size == 0 ? "an empty file: its program has written nothing to it yet"
+                           : "no complete frame") });
   }
 }
 

@@ -6,6 +6,7 @@
 #include "private/request/print.h"
 
 #include "granular/formats/dump/grammar/dump_files.h"
+#include "granular/frames/other_files.h"
 
 #include "vtkObjectFactory.h"
 
@@ -74,7 +75,8 @@ vtkGranularDumpReader::vtkGranularDumpReader()
 //------------------------------------------------------------------------------
 int vtkGranularDumpReader::CanReadFile(const char* fileName)
 {
-  return granular::is_dump_file(fileName ? fileName : "") ? 1 : 0;
+  const std::string name = fileName ? fileName : "";
+  return granular::is_dump_file(name) || granular::is_refused_file(name) ? 1 : 0;
 }
 
 vtkGranularPrintMacro(vtkGranularDumpReader, ColumnNames, PointPrecision, Vertices);

@@ -71,8 +71,9 @@ public:
 
   /**
    * Returns true if the first 64 KiB, decompressed, begin a dump of particles: text with ITEM: TIMESTEP, UNITS or TIME
-   * and, if they reach so far, ITEM: NUMBER OF ATOMS; or a plausible binary header. Returns false, without a message, for
-   * all other files, missing files and directories.
+   * and, if they reach so far, ITEM: NUMBER OF ATOMS; or a plausible binary header. Also true for files that no reader
+   * takes and the error of an update names, such as logs and empty files. Returns false, without a message, for all other
+   * files, missing files and directories.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

@@ -251,9 +251,10 @@ bool is_decomposition_vtu(const ByteSource& source, std::string_view head)
 
 const FileFormat& decomposition_format() noexcept
 {
-  static constexpr FileFormat format = {
-    .name = "a decomposition file", .index = &index_decomposition, .complete = &name_steps
-  };
+  static constexpr FileFormat format = { .name = "a decomposition file",
+    .index = &index_decomposition,
+    .complete = &name_steps,
+    .reads_vtk = true };
   return format;
 }
 

@@ -104,9 +104,10 @@ bool look_at(const ByteSource& source)
 
 const FileFormat& euler_format() noexcept
 {
-  static constexpr FileFormat format = {
-    .name = "a file of Euler cells", .index = &index_euler, .complete = &name_steps
-  };
+  static constexpr FileFormat format = { .name = "a file of Euler cells",
+    .index = &index_euler,
+    .complete = &name_steps,
+    .reads_vtk = true };
   return format;
 }
 

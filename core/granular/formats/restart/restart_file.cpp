@@ -149,7 +149,7 @@ bool looks_like_restart(const ByteSource& source)
 const FileFormat& restart_format() noexcept
 {
   static constexpr FileFormat format = {
-    .name = "a restart file", .index = &index_restart, .complete = &pass_over_parts
+    .name = "a restart file of LIGGGHTS", .index = &index_restart, .complete = &pass_over_parts
   };
   return format;
 }

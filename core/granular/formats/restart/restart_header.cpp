@@ -3,6 +3,7 @@
 #include "granular/formats/restart/header_fields.h"
 #include "granular/formats/restart/restart_bytes.h"
 #include "granular/formats/restart/restart_layout.h"
+#include "granular/frames/other_files.h"
 #include "granular/geometry/compensated.h"
 
 #include <array>
@@ -65,14 +66,7 @@ private:
   /// The first flag is 0 in either order; behind it is the length of a text.
   void find_byte_order()
   {
-    constexpr std::string_view newer = "LammpS RestartT";
-    if (bytes_.view(0, newer.size()).starts_with(newer))
-    {
-      throw UnsupportedError(
-        "expected a restart file of LIGGGHTS, got one of LAMMPS: make a dump of it "
-        "by lmp -restart2dump FILE all custom DUMP id type x y z",
-        { bytes_.source().path(), 0, 0 });
-    }
+    refuse_other(bytes_.source(), "a restart file of LIGGGHTS");
     bytes_.set_swapped(false);
     const auto first = bytes_.number_at<std::int32_t>(0, "the header of a restart file");
     bytes_.set_swapped(bytes_.text_end(4) < 0);

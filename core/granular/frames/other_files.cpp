@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/frames/other_files.h"
+
+#include "granular/common/error.h"
+#include "granular/common/words.h"
+#include "granular/frames/file_index.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace granular
+{
+namespace
+{
+constexpr const char* converted = "OVITO converts it to a dump; `dump custom` of LAMMPS writes one";
+constexpr const char* unpacked = "unpack it first; only gzip and Zstandard need no unpacking";
+constexpr const char* opened = "ParaView opens it itself";
+constexpr const char* downloaded =
+  "perhaps instead of a download that failed; fetch the file itself";
+constexpr const char* logged = "vtkgranular.read_log reads it in Python";
+constexpr const char* averaged = "it holds no particles; a spreadsheet or numpy reads the numbers";
+constexpr const char* run = "run it, and open the files that its dump commands write";
+
+/// The beginning of a file, and the file.
+struct Head
+{
+  std::string_view bytes;
+  const ByteSource& source;
+};
+
+/// 80 bytes of any text, the number of triangles, and 50 bytes for each.
+bool is_binary_stl(const Head& head)
+{
+  std::uint32_t triangles = 0;
+  if (head.source.compressed() || head.bytes.size() < 84)
+  {
+    return false;
+  }
+  std::memcpy(&triangles, head.bytes.data() + 80, sizeof triangles);
+  return triangles > 0 && head.source.stamp().size == 84 + std::int64_t{ 50 } * triangles;
+}
+
+/// The number of particles, a line of any text, and rows of a word and three numbers.
+bool is_xyz(const Head& head)
+{
+  constexpr std::string_view digits = "0123456789";
+  std::string_view rest = head.bytes;
+  std::vector<std::string_view> lines;
+  while (lines.size() < 3)
+  {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    lines.push_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  const std::vector<std::string_view> count = split_words(lines[0]);
+  const std::vector<std::string_view> row = split_words(lines[2]);
+  const auto is_number = [](std::string_view word)
+  { return word.find_first_not_of("0123456789+-.e") == word.npos; };
+  return count.size() == 1 && count[0].find_first_not_of(digits) == digits.npos &&
+    (lines[1].find("properties=") != rest.npos ||
+      (row.size() > 3 && std::all_of(row.begin() + 1, row.begin() + 4, is_number)));
+}
+
+/// Signs of a file: those that are given must all be there.
+struct Sign
+{
+  std::size_t at;          ///< of `begins`
+  std::string_view begins; ///< may be empty
+  std::string_view holds;  ///< somewhere in the first bytes
+  const char* what;
+  const char* advice;
+  bool (*fits)(const Head& head) = nullptr;
+  bool is_of_paraview = false;
+};
+
+// clang-format off
+constexpr Sign binary[] = {
+  { 0, "LammpS RestartT", "", "a restart file of LAMMPS", "`lmp -restart2data FILE NEW.data` makes a data file of it, with all digits" },
+  { 4, "1AY&SY", "", "a file packed by bzip2", unpacked },
+  { 0, "\xfd" "7zXZ", "", "a file packed by xz", unpacked },
+  { 0, "\x04\x22\x4d\x18", "", "a file packed by lz4", unpacked },
+  { 0, "7z\xbc\xaf", "", "a 7z archive", unpacked },
+  { 257, "ustar", "", "a tar archive", unpacked },
+  { 0, "\x1f\x8b\x08", "", "gzip data", "unpack it once" },
+  { 0, "\x28\xb5\x2f\xfd", "", "Zstandard data", "unpack it once" },
+  { 0, "PK\x03\x04", ".npy", "arrays of numpy (.npz)", "numpy.load reads it in Python" },
+  { 0, "PK\x03\x04", "", "a zip archive", unpacked },
+  { 0, "CDF\x01", "", "a NetCDF file", converted },
+  { 0, "CDF\x02", "", "a NetCDF file", converted },
+  { 0, "CDF\x05", "", "a NetCDF file", converted },
+  { 0, "\x89HDF\r\n", "_NCProperties", "a NetCDF file (HDF5)", converted },
+  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file (HDF5)", "ParaView's VTKHDFReader takes it under a name that ends in .hdf" },
+  { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; `dump custom` of LAMMPS writes a dump" },
+  { 0, "", "", "a mesh (binary STL)", opened, is_binary_stl, true },
+};
+
+/// In small letters, as texts are compared.
+constexpr Sign texts[] = {
+  { 0, "solid", "facet", "a mesh (STL)", opened, nullptr, true },
+  { 0, "ply\n", "", "a mesh (PLY)", opened, nullptr, true },
+  { 0, "<!doctype html", "", "a web page", downloaded },
+  { 0, "<html", "", "a web page", downloaded },
+  { 0, "number of particles =", "", "a file of AtomEye (`dump cfg`)", converted },
+  { 0, "---", "natoms:", "a file of `dump yaml`", "PyYAML reads it in Python; `dump custom` of LAMMPS writes a dump" },
+  { 0, "---", "keywords:", "a thermo table in YAML", logged },
+  { 0, "#", "\nkeywords:", "averages of a fix in YAML", logged },
+  { 0, "#", "# timestep", "averages of a fix (ave/time, ave/chunk, ave/histo)", averaged },
+  { 0, "# fix print output", "", "a table of fix print", averaged },
+  { 0, "lammps (", "", "a log of LAMMPS", logged },
+  { 0, "liggghts (", "", "a log of LIGGGHTS", logged },
+  { 0, "", "\nlammps (", "a log of LAMMPS", logged },
+  { 0, "", "\nliggghts (", "a log of LIGGGHTS", logged },
+  { 0, "", "\nper mpi rank memory", "a log of LAMMPS", logged },
+  { 0, "", "\nmemory usage per processor", "a log of LAMMPS or LIGGGHTS", logged },
+  { 0, "step ", "", "a thermo table", logged },
+  { 0, "", "\natom_style", "an input script of LAMMPS or LIGGGHTS", run },
+  { 0, "", "\nread_data", "an input script of LAMMPS or LIGGGHTS", run },
+  { 0, "", "", "an xyz file", converted, is_xyz, true },
+};
+
+/// Readers of ParaView by the types of VTK's XML files, and the names that they take.
+struct VtkType
+{
+  std::string_view holds; ///< in small letters
+  const char* reader;
+  const char* ending;
+};
+
+constexpr VtkType vtk_types[] = {
+  { "# vtk datafile", "LegacyVTKReader", ".vtk" }, { "\"polydata\"", "XMLPolyDataReader", ".vtp" },
+  { "\"unstructuredgrid\"", "XMLUnstructuredGridReader", ".vtu" },
+  { "\"imagedata\"", "XMLImageDataReader", ".vti" },
+  { "\"rectilineargrid\"", "XMLRectilinearGridReader", ".vtr" },
+  { "\"structuredgrid\"", "XMLStructuredGridReader", ".vts" },
+  { "\"vtkmultiblockdataset\"", "XMLMultiBlockDataReader", ".vtm" },
+  { "\"vtkpartitioneddataset\"", "XMLPartitionedDatasetReader", ".vtpd" },
+  { "\"vtkpartitioneddatasetcollection\"", "XMLPartitionedDatasetCollectionReader", ".vtpc" },
+  { "\"collection\"", "PVDReader", ".pvd" },
+  { "\"ppolydata\"", "XMLPartitionedPolydataReader", ".pvtp" },
+  { "\"punstructuredgrid\"", "XMLPartitionedUnstructuredGridReader", ".pvtu" },
+  { "\"pimagedata\"", "XMLPartitionedImageDataReader", ".pvti" },
+  { "\"prectilineargrid\"", "XMLPartitionedRectilinearGridReader", ".pvtr" },
+  { "\"pstructuredgrid\"", "XMLPartitionedStructuredGridReader", ".pvts" },
+  { "", "", "" }, // a type that is newer than this table
+};
+// clang-format on
+
+/// Returns the type of a VTK file, or null.
+const VtkType* find_vtk_type(std::string_view head)
+{
+  constexpr std::string_view legacy = "# vtk datafile";
+  const std::size_t tag = head.starts_with('<') ? head.find("<vtkfile") : head.npos;
+  if (!head.starts_with(legacy) && tag == head.npos)
+  {
+    return nullptr;
+  }
+  const std::string_view named =
+    tag == head.npos ? legacy : head.substr(tag, head.find('>', tag) - tag);
+  return std::ranges::find_if(
+    vtk_types, [&](const VtkType& type) { return named.find(type.holds) != named.npos; });
+}
+
+template <std::size_t Count>
+const Sign* find_sign(const Sign (&signs)[Count], const Head& head)
+{
+  const auto found = std::ranges::find_if(signs,
+    [&](const Sign& sign)
+    {
+      return head.bytes.substr(std::min(sign.at, head.bytes.size())).starts_with(sign.begins) &&
+        head.bytes.find(sign.holds) != head.bytes.npos && (!sign.fits || sign.fits(head));
+    });
+  return found == std::end(signs) ? nullptr : &*found;
+}
+
+/// Returns text in small letters, without the blanks and the mark before it.
+std::string plain_text(std::string_view text)
+{
+  text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  const auto first = std::ranges::find_if_not(text, is_blank);
+  std::string small(first, text.end());
+  std::ranges::transform(small, small.begin(),
+    [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return small;
+}
+
+/// Returns true for the beginning of a dump or a data file, whatever stands in its title or before its first frame.
+bool is_of_run(std::string_view text)
+{
+  return text.starts_with("item: ") || text.find("\nitem: ") != text.npos ||
+    text.find(" xlo xhi") != text.npos;
+}
+}
+
+std::optional<OtherFile> find_other(const ByteSource& source)
+{
+  constexpr std::int64_t enough = 16384;
+  const std::string bytes = read_up_to(source, enough);
+  if (bytes.starts_with("ITEM: "))
+  {
+    return {};
+  }
+  const std::string text = plain_text(bytes);
+  const Sign* sign = find_sign(binary, { bytes, source });
+  const VtkType* vtk = sign ? nullptr : find_vtk_type(text);
+  if (!sign && !vtk && text.find('\0') == text.npos && !is_of_run(text))
+  {
+    sign = find_sign(texts, { text, source });
+  }
+  if (!sign && !vtk)
+  {
+    return {};
+  }
+  const bool is_of_paraview = vtk || sign->is_of_paraview;
+  std::string advice = sign ? sign->advice
+    : *vtk->reader == '\0'  ? opened
+                            : std::string("ParaView's ") + vtk->reader +
+      " takes it under a name that ends in " + vtk->ending;
+  advice += vtk ? ", and the filters of vtk-granular take the reader's output" : "";
+  const bool packed = source.compressed();
+  return OtherFile{ (vtk ? "a VTK file" : sign->what) +
+      std::string(packed ? " inside gzip or Zstandard: " : ": ") +
+      (packed && is_of_paraview ? "unpack it first; " : "") + advice,
+    vtk != nullptr, is_of_paraview && !packed };
+}
+
+void refuse_other(const ByteSource& source, const char* expected, bool reads_vtk)
+{
+  const std::optional<OtherFile> other = find_other(source);
+  if (other && !(other->is_vtk && reads_vtk))
+  {
+    throw UnsupportedError(
+      std::string("expected ") + expected + ", got " + other->text, { source.path() });
+  }
+}
+
+bool is_refused_file(const std::string& path) noexcept
+{
+  return looks_so(path,
+    [](const ByteSource& source)
+    {
+      char byte = 0;
+      const std::optional<OtherFile> other = find_other(source);
+      return other ? !other->is_of_paraview : source.read(0, &byte, 1) == 0;
+    });
+}
+}
