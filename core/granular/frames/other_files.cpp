@@ -16,10 +16,10 @@ namespace granular
 namespace
 {
 constexpr const char* converted = "OVITO converts it to a dump; `dump custom` of LAMMPS writes one";
+constexpr const char* archived = "unpack it, and open the files in it";
 constexpr const char* unpacked = "unpack it first; only gzip and Zstandard need no unpacking";
-constexpr const char* opened = "ParaView opens it itself";
-constexpr const char* downloaded =
-  "perhaps instead of a download that failed; fetch the file itself";
+constexpr const char* opened = "open it in ParaView";
+constexpr const char* downloaded = "a download has probably gone wrong; download the file itself";
 constexpr const char* logged = "vtkgranular.read_log reads it in Python";
 constexpr const char* averaged = "it holds no particles; a spreadsheet or numpy reads the numbers";
 constexpr const char* run = "run it, and open the files that its dump commands write";
@@ -82,17 +82,17 @@ constexpr Sign binary[] = {
   { 4, "1AY&SY", "", "a file packed by bzip2", unpacked },
   { 0, "\xfd" "7zXZ", "", "a file packed by xz", unpacked },
   { 0, "\x04\x22\x4d\x18", "", "a file packed by lz4", unpacked },
-  { 0, "7z\xbc\xaf", "", "a 7z archive", unpacked },
-  { 257, "ustar", "", "a tar archive", unpacked },
+  { 0, "7z\xbc\xaf", "", "a 7z archive", archived },
+  { 257, "ustar", "", "a tar archive", archived },
   { 0, "\x1f\x8b\x08", "", "gzip data", "unpack it once" },
   { 0, "\x28\xb5\x2f\xfd", "", "Zstandard data", "unpack it once" },
   { 0, "PK\x03\x04", ".npy", "arrays of numpy (.npz)", "numpy.load reads it in Python" },
-  { 0, "PK\x03\x04", "", "a zip archive", unpacked },
+  { 0, "PK\x03\x04", "", "a zip archive", archived },
   { 0, "CDF\x01", "", "a NetCDF file", converted },
   { 0, "CDF\x02", "", "a NetCDF file", converted },
   { 0, "CDF\x05", "", "a NetCDF file", converted },
   { 0, "\x89HDF\r\n", "_NCProperties", "a NetCDF file (HDF5)", converted },
-  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file (HDF5)", "ParaView's VTKHDFReader takes it under a name that ends in .hdf" },
+  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file (HDF5)", "open it in ParaView by VTKHDFReader, under a name that ends in .hdf" },
   { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; `dump custom` of LAMMPS writes a dump" },
   { 0, "", "", "a mesh (binary STL)", opened, is_binary_stl, true },
 };
@@ -101,8 +101,8 @@ constexpr Sign binary[] = {
 constexpr Sign texts[] = {
   { 0, "solid", "facet", "a mesh (STL)", opened, nullptr, true },
   { 0, "ply\n", "", "a mesh (PLY)", opened, nullptr, true },
-  { 0, "<!doctype html", "", "a web page", downloaded },
-  { 0, "<html", "", "a web page", downloaded },
+  { 0, "<", "<!doctype html", "a web page", downloaded },
+  { 0, "<", "<html", "a web page", downloaded },
   { 0, "number of particles =", "", "a file of AtomEye (`dump cfg`)", converted },
   { 0, "---", "natoms:", "a file of `dump yaml`", "PyYAML reads it in Python; `dump custom` of LAMMPS writes a dump" },
   { 0, "---", "keywords:", "a thermo table in YAML", logged },
@@ -175,14 +175,16 @@ const Sign* find_sign(const Sign (&signs)[Count], const Head& head)
   return found == std::end(signs) ? nullptr : &*found;
 }
 
-/// Returns text in small letters, without the blanks and the mark before it.
+/// Returns text in small letters, with one kind of quotes, and without the blanks and the mark before it.
 std::string plain_text(std::string_view text)
 {
   text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
   const auto first = std::ranges::find_if_not(text, is_blank);
   std::string small(first, text.end());
   std::ranges::transform(small, small.begin(),
-    [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32)
+                   : c == '\''               ? '"'
+                                             : c; });
   return small;
 }
 
@@ -214,15 +216,18 @@ std::optional<OtherFile> find_other(const ByteSource& source)
     return {};
   }
   const bool is_of_paraview = vtk || sign->is_of_paraview;
-  std::string advice = sign ? sign->advice
-    : *vtk->reader == '\0'  ? opened
-                            : std::string("ParaView's ") + vtk->reader +
-      " takes it under a name that ends in " + vtk->ending;
-  advice += vtk ? ", and the filters of vtk-granular take the reader's output" : "";
+  std::string advice = sign ? sign->advice : opened;
+  if (vtk)
+  {
+    advice += *vtk->reader == '\0'
+      ? std::string()
+      : std::string(" by ") + vtk->reader + ", under a name that ends in " + vtk->ending;
+    advice += "; the filters of vtk-granular take its output";
+  }
   const bool packed = source.compressed();
   return OtherFile{ (vtk ? "a VTK file" : sign->what) +
       std::string(packed ? " inside gzip or Zstandard: " : ": ") +
-      (packed && is_of_paraview ? "unpack it first; " : "") + advice,
+      (packed && is_of_paraview ? "unpack it, and " : "") + advice,
     vtk != nullptr, is_of_paraview && !packed };
 }
 
