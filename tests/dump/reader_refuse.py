@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of other programs under the same names are not taken. ParaView says so itself where we do not know them; where we do, the
 error says what they are, by the same words in the window, in scripts and in the command."""
+import contextlib
+import io
 import os
-import subprocess
-import sys
 
 import vtkgranular as vg
+from vtkgranular.command import main
 
 from paraview.simple import *
 
@@ -47,9 +48,10 @@ for name, (text, what) in known.items():
             read(path)
         except RuntimeError as error:
             said.append(str(error))
-    command = subprocess.run([sys.executable, "-m", "vtkgranular.command", "info", path], capture_output=True, text=True)
+    with contextlib.redirect_stderr(io.StringIO()) as command:
+        assert main(["info", path]) == 1
     assert said[0].startswith(f"{path}: expected a ") and f", got {what}" in said[0], said
-    assert said[1] == said[0] and said[0] in command.stderr and command.returncode == 1, (said, command)
+    assert said[1] == said[0] and said[0] in command.getvalue(), (said, command.getvalue())
     assert vg.kind_of(path) in (None, "restart")
 good = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 assert factory.CanReadFile(good, session)

@@ -39,11 +39,11 @@ const std::string log_text = "LAMMPS (4 Jul 2026)\n# a comment\nunits si\natom_s
 // clang-format off
 const Other others[] = {
   { "legacy", "# vtk DataFile Version 5.1\nmine\nBINARY\nDATASET POLYDATA\n\0\0"s,
-    "a VTK file: open it in ParaView by LegacyVTKReader, under a name that ends in .vtk; the filters of vtk-granular take its output", false },
-  { "vtp", vtk("PolyData"), "a VTK file: open it in ParaView by XMLPolyDataReader, under a name that ends in .vtp;", false },
+    "a VTK file: open it in ParaView by LegacyVTKReader, as NAME.vtk; the filters of vtk-granular take its output", false },
+  { "vtp", vtk("PolyData"), "a VTK file: open it in ParaView by XMLPolyDataReader, as NAME.vtp;", false },
   { "vtu", "<!-- mine -->\n" + vtk("UnstructuredGrid"), "XMLUnstructuredGridReader", false },
-  { "vti", vtk("RectilinearGrid"), "XMLRectilinearGridReader, under a name that ends in .vtr", false },
-  { "vtm", vtk("vtkMultiBlockDataSet"), "XMLMultiBlockDataReader, under a name that ends in .vtm", false },
+  { "vti", vtk("RectilinearGrid"), "XMLRectilinearGridReader, as NAME.vtr", false },
+  { "vtm", vtk("vtkMultiBlockDataSet"), "XMLMultiBlockDataReader, as NAME.vtm", false },
   { "pvtp", vtk("PPolyData"), "XMLPartitionedPolydataReader", false },
   { "pvd", vtk("Collection"), "PVDReader", false },
   { "newer", vtk("Hexagons"), "a VTK file: open it in ParaView; the filters", false },
@@ -71,7 +71,7 @@ const Other others[] = {
   { "cdf5", "CDF\5\0\0\0\0\0\0\0\0"s, "a NetCDF file", true },
   { "netcdf4", "\x89HDF\r\n\x1a\n\0\0_NCProperties"s, "a NetCDF file (HDF5)", true },
   { "h5md", "\x89HDF\r\n\x1a\n\0\0h5md"s, "an HDF5 file (as H5MD is): h5py", true },
-  { "vtkhdf", "\x89HDF\r\n\x1a\n\0\0VTKHDF"s, "VTKHDFReader", true },
+  { "vtkhdf", "\x89HDF\r\n\x1a\n\0\0VTKHDF"s, "by VTKHDFReader, as NAME.hdf", false },
   { "bzip2", "BZh91AY&SY\x01\x02", "a file packed by bzip2: unpack it first; only gzip and Zstandard need no unpacking", true },
   { "xz", "\xfd" "7zXZ\0\0"s, "a file packed by xz", true },
   { "lz4", "\x04\x22\x4d\x18\x64\x40", "a file packed by lz4", true },
@@ -82,7 +82,7 @@ const Other others[] = {
   { "quotes", "\xef\xbb\xbf<VTKFile type='ImageData'>", "XMLImageDataReader", false },
   { "xhtml", "<?xml version=\"1.0\"?><!DOCTYPE html PUBLIC>", "a web page", true },
   { "plain_html", "<HTML>\n<head>", "a web page", true },
-  { "lammps", "LammpS RestartT\0\1\0\0\0"s, "a restart file of LAMMPS: `lmp -restart2data FILE NEW.data`", true },
+  { "lammps", "LammpS RestartT\0\1\0\0\0"s, "a restart file of LAMMPS: `lmp -restart2data FILE NEW.data`", false },
 };
 // clang-format on
 

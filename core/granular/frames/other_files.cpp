@@ -64,6 +64,14 @@ bool is_xyz(const Head& head)
       (row.size() > 3 && std::all_of(row.begin() + 1, row.begin() + 4, is_number)));
 }
 
+/// Readers for a file under its usual name.
+enum class Taken : std::uint8_t
+{
+  No,
+  Yes, ///< by ParaView, or by a reader of ours for the sake of the error
+  Vtk  ///< by ParaView's reader in `advice`; some files are read by kinds of their own
+};
+
 /// Signs of a file: those that are given must all be there.
 struct Sign
 {
@@ -72,13 +80,14 @@ struct Sign
   std::string_view holds;  ///< somewhere in the first bytes
   const char* what;
   const char* advice;
+  Taken taken = Taken::No;
   bool (*fits)(const Head& head) = nullptr;
-  bool is_of_paraview = false;
 };
 
 // clang-format off
 constexpr Sign binary[] = {
-  { 0, "LammpS RestartT", "", "a restart file of LAMMPS", "`lmp -restart2data FILE NEW.data` makes a data file of it, with all digits" },
+  { 0, "LammpS RestartT", "", "a restart file of LAMMPS",
+    "`lmp -restart2data FILE NEW.data` makes a data file of it, with all digits", Taken::Yes },
   { 4, "1AY&SY", "", "a file packed by bzip2", unpacked },
   { 0, "\xfd" "7zXZ", "", "a file packed by xz", unpacked },
   { 0, "\x04\x22\x4d\x18", "", "a file packed by lz4", unpacked },
@@ -92,15 +101,32 @@ constexpr Sign binary[] = {
   { 0, "CDF\x02", "", "a NetCDF file", converted },
   { 0, "CDF\x05", "", "a NetCDF file", converted },
   { 0, "\x89HDF\r\n", "_NCProperties", "a NetCDF file (HDF5)", converted },
-  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file (HDF5)", "open it in ParaView by VTKHDFReader, under a name that ends in .hdf" },
+  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file", " by VTKHDFReader, as NAME.hdf", Taken::Vtk },
   { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; `dump custom` of LAMMPS writes a dump" },
-  { 0, "", "", "a mesh (binary STL)", opened, is_binary_stl, true },
+  { 0, "", "", "a mesh (binary STL)", opened, Taken::Yes, is_binary_stl },
 };
 
 /// In small letters, as texts are compared.
 constexpr Sign texts[] = {
-  { 0, "solid", "facet", "a mesh (STL)", opened, nullptr, true },
-  { 0, "ply\n", "", "a mesh (PLY)", opened, nullptr, true },
+  { 0, "# vtk datafile", "", "a VTK file", " by LegacyVTKReader, as NAME.vtk", Taken::Vtk },
+  { 0, "<", " type='polydata'", "a VTK file", " by XMLPolyDataReader, as NAME.vtp", Taken::Vtk },
+  { 0, "<", " type='unstructuredgrid'", "a VTK file", " by XMLUnstructuredGridReader, as NAME.vtu", Taken::Vtk },
+  { 0, "<", " type='imagedata'", "a VTK file", " by XMLImageDataReader, as NAME.vti", Taken::Vtk },
+  { 0, "<", " type='rectilineargrid'", "a VTK file", " by XMLRectilinearGridReader, as NAME.vtr", Taken::Vtk },
+  { 0, "<", " type='structuredgrid'", "a VTK file", " by XMLStructuredGridReader, as NAME.vts", Taken::Vtk },
+  { 0, "<", " type='vtkmultiblockdataset'", "a VTK file", " by XMLMultiBlockDataReader, as NAME.vtm", Taken::Vtk },
+  { 0, "<", " type='vtkpartitioneddataset'", "a VTK file", " by XMLPartitionedDatasetReader, as NAME.vtpd", Taken::Vtk },
+  { 0, "<", " type='vtkpartitioneddatasetcollection'", "a VTK file", " by XMLPartitionedDatasetCollectionReader, as NAME.vtpc",
+    Taken::Vtk },
+  { 0, "<", " type='collection'", "a VTK file", " by PVDReader, as NAME.pvd", Taken::Vtk },
+  { 0, "<", " type='ppolydata'", "a VTK file", " by XMLPartitionedPolydataReader, as NAME.pvtp", Taken::Vtk },
+  { 0, "<", " type='punstructuredgrid'", "a VTK file", " by XMLPartitionedUnstructuredGridReader, as NAME.pvtu", Taken::Vtk },
+  { 0, "<", " type='pimagedata'", "a VTK file", " by XMLPartitionedImageDataReader, as NAME.pvti", Taken::Vtk },
+  { 0, "<", " type='prectilineargrid'", "a VTK file", " by XMLPartitionedRectilinearGridReader, as NAME.pvtr", Taken::Vtk },
+  { 0, "<", " type='pstructuredgrid'", "a VTK file", " by XMLPartitionedStructuredGridReader, as NAME.pvts", Taken::Vtk },
+  { 0, "<", "<vtkfile", "a VTK file", "", Taken::Vtk }, // of a type that is newer than this table
+  { 0, "solid", "facet", "a mesh (STL)", opened, Taken::Yes },
+  { 0, "ply\n", "", "a mesh (PLY)", opened, Taken::Yes },
   { 0, "<", "<!doctype html", "a web page", downloaded },
   { 0, "<", "<html", "a web page", downloaded },
   { 0, "number of particles =", "", "a file of AtomEye (`dump cfg`)", converted },
@@ -118,50 +144,10 @@ constexpr Sign texts[] = {
   { 0, "step ", "", "a thermo table", logged },
   { 0, "", "\natom_style", "an input script of LAMMPS or LIGGGHTS", run },
   { 0, "", "\nread_data", "an input script of LAMMPS or LIGGGHTS", run },
-  { 0, "", "", "an xyz file", converted, is_xyz, true },
+  { 0, "", "", "an xyz file", converted, Taken::Yes, is_xyz },
 };
 
-/// Readers of ParaView by the types of VTK's XML files, and the names that they take.
-struct VtkType
-{
-  std::string_view holds; ///< in small letters
-  const char* reader;
-  const char* ending;
-};
-
-constexpr VtkType vtk_types[] = {
-  { "# vtk datafile", "LegacyVTKReader", ".vtk" }, { "\"polydata\"", "XMLPolyDataReader", ".vtp" },
-  { "\"unstructuredgrid\"", "XMLUnstructuredGridReader", ".vtu" },
-  { "\"imagedata\"", "XMLImageDataReader", ".vti" },
-  { "\"rectilineargrid\"", "XMLRectilinearGridReader", ".vtr" },
-  { "\"structuredgrid\"", "XMLStructuredGridReader", ".vts" },
-  { "\"vtkmultiblockdataset\"", "XMLMultiBlockDataReader", ".vtm" },
-  { "\"vtkpartitioneddataset\"", "XMLPartitionedDatasetReader", ".vtpd" },
-  { "\"vtkpartitioneddatasetcollection\"", "XMLPartitionedDatasetCollectionReader", ".vtpc" },
-  { "\"collection\"", "PVDReader", ".pvd" },
-  { "\"ppolydata\"", "XMLPartitionedPolydataReader", ".pvtp" },
-  { "\"punstructuredgrid\"", "XMLPartitionedUnstructuredGridReader", ".pvtu" },
-  { "\"pimagedata\"", "XMLPartitionedImageDataReader", ".pvti" },
-  { "\"prectilineargrid\"", "XMLPartitionedRectilinearGridReader", ".pvtr" },
-  { "\"pstructuredgrid\"", "XMLPartitionedStructuredGridReader", ".pvts" },
-  { "", "", "" }, // a type that is newer than this table
-};
 // clang-format on
-
-/// Returns the type of a VTK file, or null.
-const VtkType* find_vtk_type(std::string_view head)
-{
-  constexpr std::string_view legacy = "# vtk datafile";
-  const std::size_t tag = head.starts_with('<') ? head.find("<vtkfile") : head.npos;
-  if (!head.starts_with(legacy) && tag == head.npos)
-  {
-    return nullptr;
-  }
-  const std::string_view named =
-    tag == head.npos ? legacy : head.substr(tag, head.find('>', tag) - tag);
-  return std::ranges::find_if(
-    vtk_types, [&](const VtkType& type) { return named.find(type.holds) != named.npos; });
-}
 
 template <std::size_t Count>
 const Sign* find_sign(const Sign (&signs)[Count], const Head& head)
@@ -175,16 +161,16 @@ const Sign* find_sign(const Sign (&signs)[Count], const Head& head)
   return found == std::end(signs) ? nullptr : &*found;
 }
 
-/// Returns text in small letters, with one kind of quotes, and without the blanks and the mark before it.
+/// Returns the text at the beginning of a file in small letters, with one kind of quotes, without blanks and a mark before it.
 std::string plain_text(std::string_view text)
 {
   text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  text = text.substr(0, text.find('\0'));
   const auto first = std::ranges::find_if_not(text, is_blank);
   std::string small(first, text.end());
   std::ranges::transform(small, small.begin(),
-    [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32)
-                   : c == '\''               ? '"'
-                                             : c; });
+    [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  std::ranges::replace(small, '"', '\'');
   return small;
 }
 
@@ -206,29 +192,21 @@ std::optional<OtherFile> find_other(const ByteSource& source)
   }
   const std::string text = plain_text(bytes);
   const Sign* sign = find_sign(binary, { bytes, source });
-  const VtkType* vtk = sign ? nullptr : find_vtk_type(text);
-  if (!sign && !vtk && text.find('\0') == text.npos && !is_of_run(text))
+  if (!sign && !is_of_run(text))
   {
     sign = find_sign(texts, { text, source });
   }
-  if (!sign && !vtk)
+  if (!sign)
   {
     return {};
   }
-  const bool is_of_paraview = vtk || sign->is_of_paraview;
-  std::string advice = sign ? sign->advice : opened;
-  if (vtk)
-  {
-    advice += *vtk->reader == '\0'
-      ? std::string()
-      : std::string(" by ") + vtk->reader + ", under a name that ends in " + vtk->ending;
-    advice += "; the filters of vtk-granular take its output";
-  }
   const bool packed = source.compressed();
-  return OtherFile{ (vtk ? "a VTK file" : sign->what) +
-      std::string(packed ? " inside gzip or Zstandard: " : ": ") +
-      (packed && is_of_paraview ? "unpack it, and " : "") + advice,
-    vtk != nullptr, is_of_paraview && !packed };
+  const bool is_taken = sign->taken != Taken::No;
+  const bool is_vtk = sign->taken == Taken::Vtk;
+  return OtherFile{ sign->what + std::string(packed ? " inside gzip or Zstandard: " : ": ") +
+      (packed && is_taken ? "unpack it, and " : "") + (is_vtk ? opened : "") + sign->advice +
+      (is_vtk ? "; the filters of vtk-granular take its output" : ""),
+    is_vtk, is_taken && !packed };
 }
 
 void refuse_other(const ByteSource& source, const char* expected, bool reads_vtk)
@@ -248,7 +226,7 @@ bool is_refused_file(const std::string& path) noexcept
     {
       char byte = 0;
       const std::optional<OtherFile> other = find_other(source);
-      return other ? !other->is_of_paraview : source.read(0, &byte, 1) == 0;
+      return other ? !other->is_taken : source.read(0, &byte, 1) == 0;
     });
 }
 }

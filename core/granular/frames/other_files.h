@@ -12,9 +12,9 @@ namespace granular
 /// A file that no kind of run reads, told by its first bytes.
 struct OtherFile
 {
-  std::string text;    ///< its name, and what to do with it: "a web page: ..."
-  bool is_vtk;         ///< some of these are read by kinds of their own
-  bool is_of_paraview; ///< a reader of ParaView takes it under its usual name
+  std::string text; ///< its name, and what to do with it: "a web page: ..."
+  bool is_vtk;      ///< some of these are read by kinds of their own
+  bool is_taken;    ///< a reader of ParaView takes it under its usual name
 };
 
 /// Returns the file that contents are, or none if they may be those of a run.
