@@ -251,7 +251,9 @@ TEST(FileSeries, BoundingBoxesAreNoFrames)
   run.update({ files[1] });
   EXPECT_EQ(run.steps(), Steps{ 100 });
   EXPECT_EQ(error_of([&] { run.update({ files[3] }); }),
-    files[3] + ":1: expected ITEM: TIMESTEP, UNITS or TIME, got '# vtk DataFile Version 2.0'");
+    files[3] +
+      ": expected a dump, got a VTK file: open it in ParaView by LegacyVTKReader, as NAME.vtk; the "
+      "filters of vtk-granular take its output");
 }
 
 TEST(FileSeries, OneOfThreeFilesIsNoDump)

@@ -177,7 +177,7 @@ std::string plain_text(std::string_view text)
 /// Returns true for the beginning of a dump or a data file, whatever stands in its title or before its first frame.
 bool is_of_run(std::string_view text)
 {
-  return text.starts_with("item: ") || text.find("\nitem: ") != text.npos ||
+  return text.starts_with("ITEM: ") || text.find("\nITEM: ") != text.npos ||
     text.find(" xlo xhi") != text.npos;
 }
 }
@@ -186,15 +186,10 @@ std::optional<OtherFile> find_other(const ByteSource& source)
 {
   constexpr std::int64_t enough = 16384;
   const std::string bytes = read_up_to(source, enough);
-  if (bytes.starts_with("ITEM: "))
-  {
-    return {};
-  }
-  const std::string text = plain_text(bytes);
   const Sign* sign = find_sign(binary, { bytes, source });
-  if (!sign && !is_of_run(text))
+  if (!sign && !is_of_run(bytes))
   {
-    sign = find_sign(texts, { text, source });
+    sign = find_sign(texts, { plain_text(bytes), source });
   }
   if (!sign)
   {

@@ -6,7 +6,7 @@
  * Reads the files that `restart` and `write_restart` of LIGGGHTS and its forks write, of either byte order and any sizes of integers,
  * in one file or one per rank (`%`: the file with `base` in its name stands for all). Each file is a frame with the timestep of its
  * header: see vtkGranularSeriesReader. An incomplete file, such as one of two that a run writes in turn, is left out with a warning.
- * LAMMPS writes restart files in another format; the error tells how to convert one to a dump.
+ * LAMMPS writes restart files in another format; the error tells how to make a data file of one.
  *
  * Output port 0 holds the particles (vtkPolyData) in the order of the file, with the arrays of a dump reader:
  * - `id`, `type`, `mask` (a bit for each group), `image` and `v` of all atom styles;
