@@ -31,6 +31,14 @@ struct Head
   const ByteSource& source;
 };
 
+/// Other than a binary dump, which may begin with a timestep of these bytes: upper halves of the timestep and of the number of rows.
+bool is_no_dump(const Head& head)
+{
+  const std::string_view zeros("\0\0\0\0", 4);
+  return head.bytes.substr(0, 16).size() < 16 || head.bytes.substr(4, 4) != zeros ||
+    head.bytes.substr(12, 4) != zeros;
+}
+
 /// 80 bytes of any text, the number of triangles, and 50 bytes for each.
 bool is_binary_stl(const Head& head)
 {
@@ -90,16 +98,16 @@ constexpr Sign binary[] = {
     "`lmp -restart2data FILE NEW.data` makes a data file of it, with all digits", Taken::Yes },
   { 4, "1AY&SY", "", "a file packed by bzip2", unpacked },
   { 0, "\xfd" "7zXZ", "", "a file packed by xz", unpacked },
-  { 0, "\x04\x22\x4d\x18", "", "a file packed by lz4", unpacked },
+  { 0, "\x04\x22\x4d\x18", "", "a file packed by lz4", unpacked, Taken::No, is_no_dump },
   { 0, "7z\xbc\xaf", "", "a 7z archive", archived },
   { 257, "ustar", "", "a tar archive", archived },
   { 0, "\x1f\x8b\x08", "", "gzip data", "unpack it once" },
   { 0, "\x28\xb5\x2f\xfd", "", "Zstandard data", "unpack it once" },
-  { 0, "PK\x03\x04", ".npy", "arrays of numpy (.npz)", "numpy.load reads it in Python" },
-  { 0, "PK\x03\x04", "", "a zip archive", archived },
-  { 0, "CDF\x01", "", "a NetCDF file", converted },
-  { 0, "CDF\x02", "", "a NetCDF file", converted },
-  { 0, "CDF\x05", "", "a NetCDF file", converted },
+  { 0, "PK\x03\x04", ".npy", "arrays of numpy (.npz)", "numpy.load reads it in Python", Taken::No, is_no_dump },
+  { 0, "PK\x03\x04", "", "a zip archive", archived, Taken::No, is_no_dump },
+  { 0, "CDF\x01", "", "a NetCDF file", converted, Taken::No, is_no_dump },
+  { 0, "CDF\x02", "", "a NetCDF file", converted, Taken::No, is_no_dump },
+  { 0, "CDF\x05", "", "a NetCDF file", converted, Taken::No, is_no_dump },
   { 0, "\x89HDF\r\n", "_NCProperties", "a NetCDF file (HDF5)", converted },
   { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file", " by VTKHDFReader, as NAME.hdf", Taken::Vtk },
   { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; `dump custom` of LAMMPS writes a dump" },
