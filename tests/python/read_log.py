@@ -55,7 +55,7 @@ def lines_of(name):
 def table_of(lines, first, last):
     """Rows of known lines, which are counted from 1. Other output in these lines has words, or two numbers."""
     rows = [line.split() for line in lines[first - 1:last]]
-    are_rows = [row for row in rows if len(row) > 2 and all(re.fullmatch("[-0-9.e]+", word) for word in row)]
+    are_rows = [row for row in rows if len(row) > 2 and all(re.fullmatch("[-+0-9.e]+", word) for word in row)]
     return numpy.array([[float(word) for word in row] for row in are_rows])
 
 
@@ -220,8 +220,6 @@ for name in ("lammps.txt", "liggghts.txt"):
                 same(part[column], rows[column][:len(part)])
 MEMORY = "Memory usage per processor = 4 Mbytes\n"
 TABLE = "Step Temp Press \n       0 1 2 \n      10 3 4 \n      20 5 6 \n"
-log = read(written(TABLE[:-4]), "made.txt:4: the last line ends early and is left out")
-assert log.steps.tolist() == [0, 10] and log.times.tolist() == [0, 10]
 read(written(gzip.compress(TABLE.encode())[:-9], "cut.gz"), "cut.gz: expected complete gzip data")
 
 # ---- the form of newer versions of LAMMPS, by their documentation: centred names, and yaml ----
@@ -235,22 +233,81 @@ for names in ("'Step', 'Temp', 'v_a[1]', ", "Step, Temp, v_a[1], ", "Step, Temp,
     log = read(written(f"Per MPI rank memory allocation (min/avg/max) = 4 | 4 | 4 Mbytes\n---\nkeywords: [{names}]\ndata:\n"
                        "  - [0, 1.5, -2, ]\nWARNING: something\n  - [10, inf, 3e-07]\n...\nLoop time of 1 on 1 procs\n"))
     same(numpy.column_stack([log[name] for name in ("Step", "Temp", "v_a[1]")]), numbers)
-log = read(written("keywords: ['Step', 'Temp', ]\ndata:\n  - [0, 1.5, ]\n  - [10, 2.5"), "made.txt:4: the last line ends early")
-assert len(log) == 1
 BLOCKS = ("------------ Step              0 ----- CPU =            0 (sec) -------------\nTemp     =   1.5 v_a      =     -2\n"
           "------------ Step             10 ----- CPU =          0.5 (sec) -------------\nTemp     =   inf v_a      =     3e-7\n")
 log = read(written(BLOCKS))
 same(numpy.column_stack([log[name] for name in ("Step", "Temp", "v_a")]), numbers)
 assert log["CPU"].tolist() == [0, 0.5]
-log = read(written(BLOCKS.replace("v_a", "\nv_a").rsplit("\n", 2)[0] + "\n"), "made.txt:5: the last block ends early")
-assert len(log) == 1
+assert len(read(written(BLOCKS.replace("v_a", "\nv_a").rsplit("\n", 2)[0] + "\n"), "made.txt:5: the last block ends early")) == 1
 
-# ---- after the line about memory, any words are the names of columns ----
-for name in ("1", "nan", "1e5"):
-    for names, row in ((f"Step {name} Volume", "{0} 0.5 {0}"), (f"{name} Step Volume", "0.5 {0} {0}")):
-        log = read(written(TABLE + f"Loop time of 1\n{MEMORY}  {names} \n  {row.format(20)} \n  {row.format(30)} \nLoop time of 1\n"))
-        assert log.steps.tolist() == [0, 10, 20, 30] and log.runs[1][name].tolist() == [0.5, 0.5]
-        assert log.runs[1]["Volume"].tolist() == [20, 30] and log.runs[1].line == 7
+# ---- small files, and siblings of their kinds: columns, timesteps, times, and the last column of each run ----
+PER, LOOP = "Per MPI rank memory allocation (min/avg/max) = 4 | 4 | 4 Mbytes\n", "Loop time of 1 on 1 procs for 100 steps with 10 atoms\n"
+NO_STEP = "made.txt:{}: expected the column Step, got a table without it, "
+FILES = {"renamed": ([("Step|Kinetic Energy|Time", [0, 50, 100], [0, 0.25, 0.5], [0, 0.25, 0.5])],),
+         "named_1": ([("Step|Atoms|KinEng|1|Volume", [100, 200], [0.001, 0.002], [0.001, 0.001])],),
+         "second_named_1": ([("Step|Atoms|KinEng|Volume", [0, 100], [0, 0.001], [0.001, 0.001]),
+                             ("Step|Atoms|KinEng|1|Volume", [100, 200], [0.001, 0.002], [0.001, 0.001])],),
+         "no_step": ([("Step|KinEng|Volume", [0, 1], [0, 1], [0.001, 0.001])], "no_step.txt:6: expected the column Step"),
+         "neb": ([("Step|MaxReplicaForce|MaxAtomForce|EBF|EBR|RDT|RD1|PE1|RD2|PE2|11|12", [0, 100], [0, 100], [-3.05, -3.05])],)}
+SIBLINGS = (  # text, runs, what is told; | stands for the end of a table, and M and P for lines about memory
+    ("M  Step nan inf \n  0 1 2 \n  5 3 4 \n|", [("Step|nan|inf", [0, 5], [0, 5], [2, 4])]),
+    ("M  1e5 Step Volume \n  0.5 20 1 \n  0.5 30 2 \n|", [("Step|1e5|Volume", [20, 30], [20, 30], [1, 2])]),
+    ("timestep 2\nP  timestep Step \n  0.5 0 \n  0.75 10 \n|", [("Step|timestep", [0, 10], [0, 20], [0.5, 0.75])]),
+    ("P  1 Step \n  7 0 \n|run 10 pre no\n  1 Step \n  8 0 \n  9 10 \n|",
+     [("Step|1", [0], [0], [7]), ("Step|1", [0, 10], [0, 10], [8, 9])]),
+    ("P  Step E \nWARNING: x\nFor more information see https://docs.lammps.org/err0008 (src/thermo.cpp:533)\n  0 1 \n|",
+     [("Step|E", [0], [0], [1])]),
+    ("P  Step E \n  0 1 \nStep by\n  1.5 2 \n  10 3 \n|", [("Step|E", [0, 10], [0, 10], [1, 3])],
+     "expected a row after timestep 0, got '1.5 2'"),
+    # tables without Step, and runs without a table
+    ("M  KinEng Volume \n  1 2 \n  3 4 \n|M  KinEng \n  5 \n|",
+     [("Step|KinEng|Volume", [0, 1], [0, 1], [2, 4]), ("Step|KinEng", [2], [2], [5])],
+     NO_STEP.format(2) + "whose rows are numbered; line 7: expected the column Step"),
+    ("units si\nM  Time KinEng \n  0.5 1 \n  0.75 3 \n", [("Step|Time|KinEng", [0, 1], [0.5, 0.75], [1, 3])], NO_STEP.format(3)),
+    ("timestep 0.5\nM  Step E \n  0 1 \n  10 2 \n|M  Time E \n  5 2 \n  10 3 \n|",
+     [("Step|E", [0, 10], [0, 5], [1, 2]), ("Step|Time|E", [10, 20], [5, 10], [2, 3])], NO_STEP.format(8) + "whose column Time counts"),
+    ("M  Temp Press \n  1 2 \n  3 4 \n|M  E \n  5 \n|M  Step E \n  0 1 \n|", [("Step|E", [0], [0], [1])],
+     NO_STEP.format(2) + "which is left out; line 7: expected the column Step, got a table without it, which is left out"),
+    ("M  Step E \n  0 1 \n|run 10\n|run 10\n|", [("Step|E", [0], [0], [1])],
+     "made.txt:6: expected a table for each of 3 lines 'Loop time', got none before line 6, 8"),
+    ("M  Step E \n  0 1 \n|M  Step F \n|", [("Step|E", [0], [0], [1])],
+     "made.txt:6: expected rows of numbers below the columns Step F, got none"),
+    # the last dt that is seen, until the next command `timestep`
+    ("timestep 1\nP  Step Dt \n  0 1 \n  10 2 \n  20 4 \n|P  Step E \n  20 1 \n  30 2 \n|timestep 1\nP  Step E \n  30 2 \n  40 1 \n|",
+     [("Step|Dt", [0, 10, 20], [0, 10, 30], [1, 2, 4]), ("Step|E", [20, 30], [30, 70], [1, 2]), ("Step|E", [30, 40], [70, 80], [2, 1])]),
+    ("timestep 1\nP  Step Time \n  0 0 \n  10 10 \n  20 40 \n|reset_timestep 0\nP  Step E \n  0 1 \n  10 2 \n|",
+     [("Step|Time", [0, 10, 20], [0, 10, 40], [0, 10, 40]), ("Step|E", [0, 10], [0, 30], [1, 2])]),
+    ("timestep 1.25\nP  Step Time \n  0 0 \n  1 1.2 \n  2 2.5 \n|P  Step E \n  2 1 \n  4 2 \n|",  # rounded, but not another one
+     [("Step|Time", [0, 1, 2], [0, 1.25, 2.5], [0, 1.2, 2.5]), ("Step|E", [2, 4], [2.5, 5], [1, 2])]),
+    ("Step F1 F2 RD1 PE1 ... RDN PEN\n0 1 2 0 5 0.5 6 1 7 \nClimbing replica = 3\nStep F1 F2 RD1 PE1 ... RDN PEN\n1 1 2 0 5 0.5 6 1 8",
+     [("Step|F1|F2|RD1|PE1|6|7|8|9", [0], [0], [7]), ("Step|F1|F2|RD1|PE1|6|7|8|9", [1], [1], [8])]))
+for text, runs, *told in (*((name, *rest) for name, rest in FILES.items()), *SIBLINGS):
+    made = re.sub("^[MP]  ", lambda found: (MEMORY if found[0][0] == "M" else PER) + "  ", text.replace("|", LOOP), flags=re.MULTILINE)
+    log = read(os.path.join(DATA, text + ".txt") if text in FILES else written(made), *told)
+    found = [("|".join(run.columns), run.steps.tolist(), run.times.tolist(), run[[*run][-1]].tolist()) for run in log.runs]
+    assert found == runs, (text, found)
+
+# ---- all styles of LAMMPS of 2026: line, timesteps, times, and ends of the last column, which were read by eye ----
+lines, log = lines_of("styles.txt"), read(os.path.join(DATA, "styles.txt"))
+DT, SHOWN = 3.42893519140375e-05, 0.0594396750150454  # the last ones that a run shows before fix dt/reset ends
+STYLES = ((55, 0, 300, 0.015, "Press", 2.0248251, 0.84679908), (90, 300, 600, 0.03, "v_tons", 3.0869289e-06, 3.0869289e-06),
+          (126, 600, 800, 0.04, "step_size", 5e-05, 5e-05), (161, 800, 1000, 0.044, "Press", 4.1985, 5.3035),
+          (206, 1000, 1200, 0.048, "v_tons", 0, 0), (246, 1200, 1400, 0.052, "Press", 4.89549930098869, 5.14139767632874),
+          (284, 1400, 1600, SHOWN, "c_1", 1.57250148053089e-05, 3.03553975675085e-05),
+          (320, 1600, 1700, SHOWN + 100 * DT, "c_1", 3.03554e-05, 4.62403e-05),
+          (352, 1700, 1800, SHOWN + 200 * DT, "c_1", 4.62403e-05, 5.38449e-05),
+          (405, 1800, 1820, SHOWN + 220 * DT, "c_1", 5.3844863e-05, 5.3844863e-05),
+          (472, 0, 200, 200 * DT, "KinEng", 12.862204, 1.6902153e-05))
+assert len(log.runs) == len(STYLES)
+for run, (line, first, last, time, name, begin, end) in zip(log.runs, STYLES):
+    assert (run.line, *run.steps[[0, -1]], *run[name][[0, -1]]) == (line, first, last, begin, end) and run.columns[-1] == name, run
+    assert abs(run.times[-1] - time) < 1e-9, (line, run.times)
+    if lines[line - 1].split()[0] == "Step" and "energy of motion" not in run:
+        numbers = table_of(lines, line + 1, line + 1 + len(run) + 2)
+        assert lines[line - 1].split() == run.columns and numbers.shape == (len(run), len(run.columns)), run
+        for i, name in enumerate(run):
+            same(run[name], numbers[:, i])
+assert log.runs[7].columns == log.runs[6].columns == ["Step", "Dt", "Time", "energy of motion", "c_1"]
 
 # ---- other output that looks like rows or names ----
 log = read(written("Memory usage per processor = 4 Mbytes\n    Step Temp Press \n       0 1 2 \n10 7 8\n      10 3 4 \n30\nERROR x\n"
@@ -266,9 +323,6 @@ log = read(written(TABLE.replace("20 5 6", "10 5 6")), "made.txt:4: expected a r
 assert log.steps.tolist() == [0, 10] and log["Press"].tolist() == [2, 4]
 log = read(written("Step Temp\n9007199254740993 1\n9007199254740994 2\n"))
 assert log.steps.tolist() == [9007199254740993, 9007199254740994]
-log = read(written("Memory usage per processor = 4 Mbytes\nTemp Press \n 1 2 \n 3 4 \nLoop time of 1\n" + TABLE),
-           "made.txt:2: expected the column Step, got a table without it")
-assert log.steps.tolist() == [0, 10, 20]
 # at the end of a run, columns go on into the next run, also over runs of no steps, but not over rows that were begun again
 text = TABLE + "Loop time of 1\nStep Temp\n20 7\nLoop time of 1\nStep Temp\n20 8\n30 9\nLoop time of 1\n"
 log = read(written(text))
@@ -287,19 +341,8 @@ for text in ("".join(OWN.format(10 * i, i) for i in range(3000)),
     tracemalloc.stop()
     assert numpy.nansum(log["own2998"]) in (2998, 2 * 2998) and (log["both"] == 1.5).all() and "own2999" in log.columns
 same(log["own7"], [7])  # of the last row of a timestep, with the columns of the runs that end there
-# a column Time counts where the timestep is changed within a run
-text = "units si\nfix 1 all dt/reset 1 1e-9 1e-3 0.01\nStep Time \n 0 0 \n 10 1e-7 \n 20 1.5e-7 \n"
-assert read(written(text)).times.tolist() == [0, 1e-7, 1.5e-7] and read(written(text), dt=2e-8).times.tolist() == [0, 2e-7, 4e-7]
-assert read(written("Step Time \n 0 0 \n 10 3 \n")).times.tolist() == [0, 3]
-assert read(written("units si\n" + TABLE)).times.tolist() == [0, 1e-7, 2e-7]
-assert read(written("Step Time \n 0 0 \n 10 3 \nLoop time of 1\nStep Temp \n 20 5\n")).times.tolist() == [0, 10, 20]
-# times go on after another timestep, also where a run begins again before the change
-text = "".join(f"timestep {dt}\nStep Temp\n{first} 1\n{last} 2\nLoop time of 1\n" for dt, first, last in
-               ((0.1, 0, 10), (0.2, 10, 20), (0.1, 5, 15), (0.3, 15, 16)))
-assert [run.times.tolist() for run in read(written(text)).runs] == [[0, 1], [1, 3], [0.5, 1.5], [1.5, 1.8]]
 
 # ---- renamed columns, whose names may have blanks; tables without Step ----
-PER = "Per MPI rank memory allocation (min/avg/max) = 4 | 4 | 4 Mbytes\n"
 ROWS = "         0   1.5            -2\n        10   2.5            -3\nLoop time of 1 on 1 procs\n"
 for header in ("   Step      Kinetic Energy      v_a       \n", "   Step           E_x      Kinetic Energy\n"):
     for before in (PER, "run 10 pre no\n"):
@@ -308,7 +351,7 @@ for header in ("   Step      Kinetic Energy      v_a       \n", "   Step        
 RENAMED = 'thermo_modify line one colname 2 "Kinetic Energy" colname pe \'Potential, all of it\'\n'
 log = read(written(RENAMED + PER + "   Step     Kinetic Energy Potential, all of it \n" + ROWS))
 assert log.columns == ["Step", "Kinetic Energy", "Potential, all of it"] and log.steps.tolist() == [0, 10]
-log = read(written(PER + "---\nkeywords: ['Step', 'Kinetic Energy', 'Potential, all of it', ]\ndata:\n  - [0, 1.5, -2, ]\n...\nLoop time of 1\n"))
+log = read(written(PER + "---\nkeywords: ['Step', 'Kinetic Energy', 'Potential, all of it', ]\ndata:\n  - [0, 1.5, -2, ]\n...\n"))
 assert log.columns == ["Step", "Kinetic Energy", "Potential, all of it"]
 log = read(written('thermo_modify colname temp "Kinetic Energy"\n' + BLOCKS.replace("Temp    ", "Kinetic Energy")))
 assert log["Kinetic Energy"].tolist() == [1.5, numpy.inf] and log["v_a"].tolist() == [-2, 3e-7]
@@ -325,65 +368,56 @@ for before in (NAMED.format("ke step pe", 1), NAMED.format("step ke pe", 1) + "t
     assert read(written(before + COLUMNS), "without it, whose rows are numbered")["MD"].tolist() == [0, 10]
 log = read(written(BLOCKS.replace("v_a      =     -2\n", "v_a      =     -2\nNeighbor list builds = 5\n")))
 assert log.columns == ["Step", "CPU", "Temp", "v_a"]
-NUMBERED = "without it, whose rows are numbered"
-log = read(written(MEMORY + "KinEng Volume \n 1 2 \n 3 4 \nLoop time of 1\n" + MEMORY + "KinEng \n 5 \nLoop time of 1\n"), "made.txt:2: expected the")
-assert log.steps.tolist() == log.times.tolist() == [0, 1, 2] and log["KinEng"].tolist() == [1, 3, 5] and len(log.runs) == 2
-log = read(written("units si\n" + MEMORY + "Time KinEng \n 0.5 1 \n 0.75 3 \n"), NUMBERED)
-assert log.times.tolist() == [0.5, 0.75] and log.steps.tolist() == [0, 1]
 EMPTY = "expected rows of numbers below the columns Step RDN PEN, got none: the table is left out"
 read(written(TABLE + "Loop time of 1\nStep RDN PEN\n0 1 2 3\n10 4 5 6\n"), "made.txt:6: " + EMPTY)
 read(written(MEMORY + TABLE + f"Loop time of 1\n{MEMORY} Step RDN PEN\nERROR x\nLAMMPS (1 Jan 2026)\n"), "made.txt:8: " + EMPTY)
 
-# ---- times after reset_timestep: 0 if the timestep becomes smaller; and after a column Time that differs ----
-text = "timestep {}\nStep Temp\n{} 1\n{} 2\nLoop time of 1\n"
-log = read(written(text.format(0.1, 0, 10) + "reset_timestep 5\n" + text.format(0.1, 5, 15) + text.format(0.2, 15, 16)))
-assert [run.times.tolist() for run in log.runs] == [[0, 1], [0, 1], [1, 1.2]]
-log = read(written(text.format(0.1, 0, 10) + "reset_timestep 20\n" + text.format(0.2, 20, 30)))
-assert log.times.tolist() == [0, 1, 2, 4]
-log = read(written(text.format(0.1, 0, 10) + "reset_timestep 20 time 7\n" + text.format(0.2, 20, 30) + text.format(0.1, 30, 40)))
-assert log.times.tolist() == [0, 1, 7, 9, 10]
-logs = [written(text.format(0.1, 0, 10), "first.txt"), written("reset_timestep 5\n" + text.format(0.1, 5, 15), "second.txt")]
+# ---- times go on after another timestep, also where a run begins again before it; 0 after `reset_timestep` to a smaller one ----
+RESET = "units si\nfix 1 all dt/reset 1 1e-9 1e-3 0.01\nStep Time \n 0 0 \n 10 1e-7 \n 20 1.5e-7 \n"
+PART = "timestep {}\nStep Temp\n{} 1\n{} 2\nLoop time of 1\n".format
+for text, times in ((RESET, [[0, 1e-7, 1.5e-7]]), ("units si\n" + TABLE, [[0, 1e-7, 2e-7]]), ("Step Time \n 0 0 \n 10 3 \n", [[0, 3]]),
+                    ("Step Time \n 0 0 \n 10 3 \nLoop time of 1\nStep Temp \n 20 5\n", [[0, 3], [6]]),
+                    (PART(0.1, 0, 10) + PART(0.2, 10, 20) + PART(0.1, 5, 15) + PART(0.3, 15, 16), [[0, 1], [1, 3], [0.5, 1.5], [1.5, 1.8]]),
+                    (PART(0.1, 0, 10) + "reset_timestep 5\n" + PART(0.1, 5, 15) + PART(0.2, 15, 16), [[0, 1], [0, 1], [1, 1.2]]),
+                    (PART(0.1, 0, 10) + "reset_timestep 20\n" + PART(0.2, 20, 30), [[0, 1], [2, 4]]),
+                    (PART(0.1, 0, 10) + "reset_timestep 20 time 7\n" + PART(0.2, 20, 30) + PART(0.1, 30, 40), [[0, 1], [7, 9], [9, 10]]),
+                    ("timestep 0.1\nStep Time\n0 0\n10 0.5\nLoop time of 1\n" + PART(0.2, 10, 20), [[0, 0.5], [0.5, 2.5]])):
+    assert [run.times.tolist() for run in read(written(text)).runs] == times, text
+logs = [written(PART(0.1, 0, 10), "first.txt"), written("reset_timestep 5\n" + PART(0.1, 5, 15), "second.txt")]
 assert [run.times.tolist() for run in read(logs).runs] == [[0, 1], [0, 1]]
-same(read(written(text.format(0.1, 0, 10) + "reset_timestep 5\n" + text.format(0.1, 5, 15)), dt=1).all_rows.times, [0, 10, 5, 15])
-log = read(written("timestep 0.1\nStep Time\n0 0\n10 0.5\nLoop time of 1\n" + text.format(0.2, 10, 20)))
-assert log.times.tolist() == [0, 0.5, 2.5]
+assert read(written(RESET), dt=2e-8).times.tolist() == [0, 2e-7, 4e-7] and read(logs, dt=1).all_rows.times.tolist() == [0, 10, 5, 15]
 
-# ---- a last row without a line feed, in which nothing can be missing ----
-assert read(written(TABLE[:-1])).steps.tolist() == [0, 10, 20]
-assert read(written(gzip.compress(TABLE[:-2].encode()), "made.gz"))["Press"].tolist() == [2, 4, 6]
-assert len(read(written(gzip.compress(BLOCKS[:-1].encode()), "made.gz"))) == 2
-assert len(read(written("keywords: ['Step', 'Temp', ]\ndata:\n  - [0, 1.5, ]\n  - [10, 2.5, ]"))) == 2
-assert len(read(written(TABLE + "Loop time of 1"))) == 3
-for end in (-2, -3):
-    assert len(read(written(TABLE[:end]), "made.txt:4: the last line ends early and is left out")) == 2
+# ---- a last row without a line feed counts, but not if digits may be missing ----
+BARE, YAML = TABLE.replace(" \n", "\n"), "keywords: ['Step', 'Temp', ]\ndata:\n  - [0, 1.5, ]\n  - [10, 2.5, ]"
+for text, rows, is_whole in ((TABLE[:-1], 3, True), (TABLE[:-2], 3, True), (TABLE[:-3], 2, False), (TABLE[:-4], 2, False),
+                             (TABLE + "Loop time of 1", 3, True),
+                             (BARE[:-1], 3, True), (BARE[:-2] + "  ", 2, False), (BARE.replace("6", "6.25")[:-4], 3, True),
+                             (BARE[:-3], 2, False), ("Step Temp\n0 1.25\n10 2", 2, True), ("Step Temp\n0 1", 1, True),
+                             (BLOCKS[:-1], 2, True), (BLOCKS[:-2], 1, False), (BLOCKS[:-9], 1, False), (YAML, 2, True),
+                             (YAML[:-1], 1, False), (YAML[:-3], 1, False)):
+    assert len(read(written(text), *[] if is_whole else ["ends early and is left out"])) == rows, text
+for text, rows in ((TABLE[:-2], 3), (BLOCKS[:-1], 2)):
+    assert len(read(written(gzip.compress(text.encode()), "made.gz"))) == rows, text
 
 # ---- what cannot be ----
-error = raises(vg.Error, lambda: vg.read_log(written(TABLE.replace("3 4", "3 four"))), "'four'", "expected a number")
-assert (error.path, error.line, error.column) == (os.path.abspath("made.txt"), 3, "Press")
-assert str(error).startswith(f"{error.path}:3: column 'Press': ")
-error = raises(vg.Error, lambda: vg.read_log(written(TABLE.replace("10 3 4", "1x 3 4"))), "'1x'")
-assert (error.line, error.column) == (3, "Step")
-error = raises(vg.Error, lambda: vg.read_log(written(MEMORY + TABLE.replace("0 1 2", "0 one 2"))), "made.txt:3", "'one'")
-assert error.column == "Temp"
-raises(vg.Error, lambda: vg.read_log(written(TABLE.replace("0 1 2", "0 one 2"))), "made.txt:1: expected rows of numbers")
-read(written(MEMORY + TABLE.replace("0 1 2", "0 1")), "made.txt:3: expected 3 numbers in a row, got 2; lines like this are left out: 1")
-error = raises(vg.Error, lambda: vg.read_log(written(BLOCKS.replace("inf", "many"))), "made.txt:4", "'many'")
-assert error.column == "Temp"
-log = read(written(TABLE.replace("10 3 4", "10 3")), "made.txt:3: expected 3 numbers in a row, got 2; lines like this are left out: 1")
-assert log.steps.tolist() == [0, 20]
-read(written(TABLE.replace("10 3 4", "10 3 4 5")), "made.txt:3: expected 3 numbers in a row, got 4")
-raises(vg.Error, lambda: vg.read_log(written("")), "made.txt: expected a log, got an empty file")
-raises(vg.Error, lambda: vg.read_log(written(gzip.compress(b""), "empty.gz")), "empty.gz: expected a log, got an empty file")
-error = raises(vg.Error, lambda: vg.read_log(written(TABLE[:20])), "made.txt:1: expected rows of numbers", "Step Temp Press")
-assert error.line == 1
-raises(vg.Error, lambda: vg.read_log(written(TABLE[:22])), "made.txt:1: expected rows of numbers")
-raises(vg.Error, lambda: vg.read_log(written("units si\nrun 10\n")), "expected a thermo table", "Step", "got 2 lines")
-raises(vg.Error, lambda: vg.read_log(written("Step Temp\n9223372036854775808 1\n")), "made.txt:2", "9223372036854775808")
 DIGITS = "9" * 5000  # more than Python turns into a number
-error = raises(vg.Error, lambda: vg.read_log(written(f"Step Temp\n0 1\n{DIGITS} 1\n")), "made.txt:3", "got 5000 digits")
-assert error.column == "Step"
-raises(vg.Error, lambda: vg.read_log(written(BLOCKS.replace("10 -", f"{DIGITS} -"))), "made.txt:3", "got 5000 digits")
-raises(vg.Error, lambda: vg.read_log(written(BLOCKS.replace("10 -", "-9223372036854775809 -"))), "made.txt:3", "got -922337203685477580")
+for text, line, column, *words in (
+        (TABLE.replace("3 4", "3 four"), 3, "Press", "column 'Press': expected a number, got 'four'"),
+        (TABLE.replace("10 3 4", "1x 3 4"), 3, "Step", "'1x'"), (MEMORY + TABLE.replace("0 1 2", "0 one 2"), 3, "Temp", "'one'"),
+        (TABLE.replace("0 1 2", "0 one 2"), 1, "", "expected rows of numbers"), (BLOCKS.replace("inf", "many"), 4, "Temp", "'many'"),
+        ("", 0, "", "expected a log, got an empty file"), (gzip.compress(b""), 0, "", "expected a log, got an empty file"),
+        (TABLE[:20], 1, "", "expected rows of numbers", "Step Temp Press"), (TABLE[:22], 1, "", "expected rows of numbers"),
+        ("units si\nrun 10\n", 0, "", "expected a thermo table", "Step", "got 2 lines"),
+        ("Step Temp\n9223372036854775808 1\n", 2, "Step", "9223372036854775808"),
+        (f"Step Temp\n0 1\n{DIGITS} 1\n", 3, "Step", "got 5000 digits"),
+        (BLOCKS.replace("10 -", f"{DIGITS} -"), 3, "Step", "got 5000 digits"),
+        (BLOCKS.replace("10 -", "-9223372036854775809 -"), 3, "Step", "got -922337203685477580")):
+    error = raises(vg.Error, lambda: vg.read_log(written(text)), f"made.txt{f':{line}' if line else ''}: ", *words)  # noqa: B023
+    assert (error.path, error.line, error.column) == (os.path.abspath("made.txt"), line, column), error
+for text, count in ((MEMORY + TABLE.replace("0 1 2", "0 1"), 2), (TABLE.replace("10 3 4", "10 3"), 2),
+                    (TABLE.replace("10 3 4", "10 3 4 5"), 4)):
+    notice = f"made.txt:3: expected 3 numbers in a row, got {count}; lines like this are left out: 1"
+    assert read(written(text), notice).steps[-1] == 20 and len(read(written(text), notice)) == 2
 binary = os.path.join(DATA, "..", "grains.bin")
 error = raises(vg.Error, lambda: vg.read_log(binary), "grains.bin: expected the text of a log, got a binary file")
 assert error.byte >= 0
