@@ -204,10 +204,13 @@ Writer create_subdomains(const std::string& path, const granular_format& format)
   const bool is_public =
     choose_dialect<bool>(format, { { "INL", false }, { "PUBLIC", true } }).value_or(false);
   return create_text(RowKind::Subdomains, path, format, is_public,
-    [is_public](const FrameView& frame, Notices& notices, Progress& progress)
+    [is_public, is_xml = path.ends_with(".vtu")](
+      const FrameView& frame, Notices& notices, Progress& progress)
     {
       const Decomposition all = decomposition_of(frame);
-      return is_public ? encode_grid(all, notices) : encode_voxels(all, progress);
+      return is_public ? encode_grid(all, notices)
+        : is_xml       ? encode_vtu(all, frame.header.time, progress)
+                       : encode_voxels(all, progress);
     });
 }
 

@@ -103,18 +103,25 @@ for path in files:
 
 # Each writer: the frames of one file, text, packed and binary, and with settings that change the bytes.
 WRITTEN = {"GranularDumpReader": [("text.dump", {}), ("packed.dump.gz", {}), ("binary.bin", {}), ("sorted.dump", {"SortById": 1, "NumberFormat": "%g"}),
-                                  ("atom.dump", {"Style": "Atom", "Scaled": 0, "Image": 1, "WriteTime": 1})]}
-written = set()
-for path in files:
-    name = READER_OF.get(vg.kind_of(path))
-    for ending, settings in WRITTEN.get(name, ()):
-        if len(written) >= 40 or name not in dir(simple):
-            break
-        reader = getattr(simple, name)(FileNames=[path])
-        target = os.path.join(folder, f"{os.path.basename(path)}.{ending}")
-        written.add(target)
-        simple.SaveData(target, proxy=reader, WriteTimeSteps=1, **settings)
-        simple.Delete(reader)
+                                  ("atom.dump", {"Style": "Atom", "Scaled": 0, "Image": 1, "WriteTime": 1})],
+           "GranularLocalReader": [("lines.bonds", {}), ("named.bonds", {"Label": "BONDS", "NumberFormat": "shortest"})],
+           "GranularEulerReader": [("cells.euler", {}), ("wide_*.euler", {"Dialect": "Wide"})],
+           "GranularDecompositionReader": [("voxels_*.vtk", {}), ("public.decomposition", {"Dialect": "PUBLIC"}), ("voxels_*.vtu", {})]}
+MOST = 8  # files of each kind that are written
+for name, forms in WRITTEN.items():
+    for path in [path for path in files if READER_OF.get(vg.kind_of(path)) == name][:MOST]:
+        for ending, settings in forms:
+            reader = getattr(simple, name)(FileNames=[path])
+            target = os.path.join(folder, f"{os.path.basename(path)}.{ending}")
+            # not by SaveData, which takes ParaView's writers for some endings
+            writer = getattr(servermanager.writers, name.replace("Reader", "Writer"))(Input=servermanager.OutputPort(reader, 0))
+            for prop, value in {"WriteTimeSteps": int("*" in ending or ending[-5:] != "euler"), **settings, "FileName": target}.items():
+                setattr(writer, prop, value)
+            writer.UpdatePipeline()
+            writer.UpdatePropertyInformation()
+            told[target.replace(folder, "")] = [writer.GetPropertyValue("Written"),
+                                                writer.GetPropertyValue("ErrorMessage").replace(folder, "")]
+            simple.Delete(reader)
 
 with open(os.path.join(folder, "outputs.json"), "w", encoding="utf-8") as file:
     json.dump(told, file, indent=1, sort_keys=True)

@@ -9,7 +9,7 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkInformationVector
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes
+from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkDataObject, vtkDataSetAttributes
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
@@ -161,7 +161,7 @@ class Writer(VTKPythonAlgorithmBase):
         for field, name in (("numbers", "NumberFormat"), ("columns", "Columns"), ("label", "Label")):
             if values.get(name):
                 setattr(made, field, values[name].encode())
-        made.dialect = (b"LIGGGHTS", b"LAMMPS", b"")[values["Dialect"]]
+        made.dialect = (b"LIGGGHTS", b"LAMMPS", b"")[values["Dialect"]] if self.style in ("", "local") else b""
         for field, name in (("scaled", "Scaled"), ("image", "Image"), ("sort_by_id", "SortById"), ("write_units", "WriteUnits"),
                             ("write_time", "WriteTime"), ("threads", "Threads"), ("durable", "Durable")):
             if name in values:
@@ -313,4 +313,112 @@ class GranularDumpWriter(Writer):
         return box
 
 
-WRITERS = {"vtkGranularDumpWriter": GranularDumpWriter}
+class GranularLocalWriter(Writer):
+    style = "local"
+
+    def take(self, data: Any) -> Rows:
+        rows = Rows(data)
+        if data.IsA("vtkTable"):
+            rows.see(data.GetRowData(), data.GetNumberOfRows())
+            return rows
+        if not data.IsA("vtkPolyData"):
+            raise c.Error(f"{c.shown(self._path)}: expected a vtkPolyData with lines, or a vtkTable, to write, got a {data.GetClassName()}: "
+                          "the filter ExtractSurface makes lines of it")
+        lines = data.GetLines()
+        for others, name in ((data.GetVerts(), "vertices"), (data.GetPolys(), "polygons"), (data.GetStrips(), "triangle strips")):
+            if others and others.GetNumberOfCells():
+                raise c.Error(f"{c.shown(self._path)}: expected lines to write and no other cells, got {others.GetNumberOfCells()} {name}")
+        count = lines.GetNumberOfCells() if lines else 0
+        if count and lines.GetMaxCellSize() != 2 or (count and lines.GetNumberOfConnectivityIds() != 2 * count):
+            raise c.Error(f"{c.shown(self._path)}: expected lines of two points each to write, got others")
+        rows.see(data.GetCellData(), count)
+        if not count and not rows.arrays:
+            if data.GetFieldData().GetAbstractArray("Columns"):
+                rows.told.append("the input has no lines, as its file does not say where these are: rows are on the second output of the "
+                                 "reader")
+            return rows
+        columns = () if rows.facts["Columns"] is None else rows.facts["Columns"]
+        part = rows.arrays.get("part")
+        is_split = part is not None and part.dtype.kind == "i" and "row" in rows.arrays
+        begins = (part == 0).nonzero()[0] if is_split else numpy.arange(count)
+        ends = numpy.append(begins[1:], count) - 1 if count else begins
+        ghosts = data.GetCellGhostArray()
+        if ghosts:
+            own = (vtk_to_numpy(ghosts)[begins] & _DUPLICATE) == 0
+            begins, ends = begins[own], ends[own]
+        rows.keep(begins)
+        if not self.values["Columns"]:
+            for name in ("length", "row", "part"):
+                if name not in columns:
+                    rows.arrays.pop(name, None)
+        if data.GetNumberOfPoints():
+            origin = rows.facts["PointOrigin"]
+            points = vtk_to_numpy(data.GetPoints().GetData()) + (0 if origin is None else origin.reshape(3))
+            of_lines = vtk_to_numpy(lines.GetConnectivityArray()).reshape(-1, 2)
+            for name, at in (("position1", of_lines[begins, 0]), ("position2", of_lines[ends, 1])):
+                rows.arrays.setdefault(name, points[at].astype(float))
+        else:
+            for name in ("position1", "position2"):
+                rows.arrays.setdefault(name, numpy.empty((0, 3)))
+        return rows
+
+
+class GranularEulerWriter(Writer):
+    style = "euler"
+
+    def format(self) -> c.Format:
+        made = super().format()
+        made.dialect = (b"LIGGGHTS", b"Wide", b"")[self.values["Dialect"]]
+        return made
+
+    def take(self, data: Any) -> Rows:
+        rows = Rows(data)
+        if data.IsA("vtkImageData"):
+            extent, origin, spacing = data.GetExtent(), data.GetOrigin(), data.GetSpacing()
+            along = [origin[i] + (numpy.arange(extent[2 * i], extent[2 * i + 1]) + 0.5) * spacing[i] for i in range(3)]
+            z, y, x = numpy.meshgrid(*along[::-1], indexing="ij")
+            rows.arrays["points"] = numpy.stack([x, y, z], axis=-1).reshape(-1, 3)
+            attributes, ghosts = data.GetCellData(), data.GetCellGhostArray()
+        elif data.IsA("vtkPointSet"):
+            rows.arrays["points"] = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else \
+                numpy.empty((0, 3))
+            attributes, ghosts = data.GetPointData(), data.GetPointGhostArray()
+        else:
+            raise c.Error(f"{c.shown(self._path)}: expected points or a vtkImageData of cells to write, got a {data.GetClassName()}")
+        rows.see(attributes, len(rows.arrays["points"]))
+        if ghosts:
+            rows.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+        return rows
+
+
+class GranularDecompositionWriter(Writer):
+    style = "decomposition"
+
+    def format(self) -> c.Format:
+        made = super().format()
+        made.dialect = (b"INL", b"PUBLIC")[self.values["Dialect"]]
+        return made
+
+    def take(self, data: Any) -> Rows:
+        if not data.IsA("vtkUnstructuredGrid"):
+            raise c.Error(f"{c.shown(self._path)}: expected a vtkUnstructuredGrid of voxels to write, got a {data.GetClassName()}")
+        rows, count = Rows(data), data.GetNumberOfCells()
+        if any(data.GetCellType(i) != VTK_VOXEL for i in range(count)):
+            raise c.Error(f"{c.shown(self._path)}: expected voxels to write, got another cell")
+        corners = vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 8) if count else numpy.empty((0, 8), dtype=int)
+        points = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else numpy.empty((0, 3))
+        rows.arrays["lo"], rows.arrays["hi"] = points[corners[:, 0]], points[corners[:, 7]]
+        for name, own in (("nlocal", ("nlocal",)), ("proc", ("proc", "procID"))):
+            array = next(filter(None, map(data.GetCellData().GetArray, own)), None)
+            if array:
+                rows.arrays[name] = vtk_to_numpy(array)
+        ghosts = data.GetCellGhostArray()
+        if ghosts:
+            rows.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+        return rows
+
+    def box(self, facts: dict[str, Any]) -> c.CBox | None:
+        return None
+
+
+WRITERS = {f"vtk{made.__name__}": made for made in (GranularDumpWriter, GranularLocalWriter, GranularEulerWriter, GranularDecompositionWriter)}
