@@ -392,6 +392,7 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
   , groups(groups_read)
 {
   std::ranges::transform(groups, std::back_inserter(group_list), &std::string::c_str);
+  std::ranges::transform(table.type_names, std::back_inserter(type_names), &std::string::c_str);
   if (table.has_lines)
   {
     arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),

@@ -55,6 +55,7 @@ struct granular_frame
   std::vector<granular_c::FrameArray> arrays;
   const std::vector<std::string> groups;
   std::vector<const char*> group_list;
+  std::vector<const char*> type_names;
   std::vector<std::int64_t> row_numbers;           ///< in the frame, of split lines
   std::vector<std::int32_t> row_parts;             ///< of the row, from 0
   std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from

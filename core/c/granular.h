@@ -355,6 +355,8 @@ typedef struct granular_frame_header
   const char* shape_sizes;          /* what the array shape holds: "half axes" or "diameters"; empty: there is none */
   const char* const* groups;        /* of a restart file: their names */
   size_t group_count;
+  const char* const* type_names;    /* of a data file with labels of types: the names of types from 1 on; empty: one has none */
+  size_t type_name_count;
   int box_form;                     /* 0 along the axes, 1 tilted, 2 general: three edges of any direction */
   double box_corners[24];           /* as the points are, x y z each, at the ends of no edge, a, b, a b, c, a c, b c, a b c */
 } granular_frame_header;
@@ -380,12 +382,10 @@ typedef struct granular_array
 } granular_array;
 
 /* Returns an array by its number, from 0. */
-GRANULAR_API granular_status granular_array_at(
-  const granular_frame* frame, size_t number, granular_array* array);
+GRANULAR_API granular_status granular_array_at(const granular_frame* frame, size_t number, granular_array* array);
 
 /* Returns an array by its name. */
-GRANULAR_API granular_status granular_array_named(
-  const granular_frame* frame, const char* name, granular_array* array);
+GRANULAR_API granular_status granular_array_named(const granular_frame* frame, const char* name, granular_array* array);
 
 /* A regular grid of cells: its bounds, the edges of a cell, and the cells along each axis. Cell first + (k counts[1] + j) counts[0] + i of
  * the frame is its cell i, j, k. */

@@ -330,6 +330,8 @@ extern "C"
                                                                : "diameters";
         made.groups = frame->group_list.data();
         made.group_count = frame->group_list.size();
+        made.type_names = frame->type_names.data();
+        made.type_name_count = frame->type_names.size();
         made.box_form = from.box.general ? 2 : from.box.tilted ? 1 : 0;
         granular_c::fill_corners(*frame, made.box_corners);
         needed(header, "header") = made;

@@ -50,6 +50,7 @@ struct Table
   std::vector<TableArray> arrays;
   FrameHeader header;     ///< of the first piece; rows of all
   ColumnSchema schema;    ///< of all pieces, with the final types
+  std::vector<std::string> type_names = {}; ///< of types from 1 on; empty: the file has none
   bool has_lines = false; ///< false: the rows are no lines, or have only the ids of their ends
   Lines lines;
   std::int64_t first_row =

@@ -131,6 +131,7 @@ class FrameHeader(Structure):
                 ("box", CBox), ("coordinates", c_int), ("origin", c_double * 3), ("label", c_char_p), ("units", c_char_p),
                 ("columns", c_char_p), ("digits", POINTER(c_int)), ("digit_count", c_size_t), ("dialect", c_char_p), ("arrays", c_size_t),
                 ("row_label", c_char_p), ("shape_sizes", c_char_p), ("groups", POINTER(c_char_p)), ("group_count", c_size_t),
+                ("type_names", POINTER(c_char_p)), ("type_name_count", c_size_t),
                 ("box_form", c_int), ("box_corners", c_double * 24)]
 
 

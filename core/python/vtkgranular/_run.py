@@ -243,6 +243,7 @@ class Frame(Mapping[str, Any]):
                         "digits": dict(zip(columns, header.digits[:header.digit_count])), "dialect": c.text(header.dialect),
                         "row_label": c.text(header.row_label), "shape_sizes": c.text(header.shape_sizes),
                         "groups": [c.text(name) for name in header.groups[:header.group_count]],
+                        "type_names": [c.text(name) for name in header.type_names[:header.type_name_count]],
                         "box": Box._of(header.box) if header.has_box else None}
         return handle
 
@@ -399,6 +400,11 @@ class Frame(Mapping[str, Any]):
     def groups(self) -> list[str]:
         """The names of the groups of a restart file; empty of other files."""
         return self._head("groups")
+
+    @property
+    def type_names(self) -> list[str]:
+        """The labels of types from 1 on in a data file that has them; of `bonds` those of types of bonds."""
+        return self._head("type_names")
 
     @property
     def columns(self) -> list[str]:

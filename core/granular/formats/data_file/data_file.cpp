@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 namespace granular
 {
@@ -17,10 +16,9 @@ std::int64_t end_of(const ByteSource& source, const DataLayout& layout)
     return source.stamp().size;
   }
   std::int64_t end = 0;
-  for (const std::optional<DataSection>& section :
-    { layout.particles, layout.velocities, layout.bond_rows })
+  for (const DataSection& section : layout.sections)
   {
-    end = std::max(end, section ? section->end : 0);
+    end = std::max(end, section.end);
   }
   std::array<char, 4096> bytes;
   while (const std::size_t got = source.read(end, bytes.data(), bytes.size()))

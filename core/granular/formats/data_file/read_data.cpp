@@ -3,7 +3,6 @@
 
 #include "granular/common/shares.h"
 #include "granular/formats/data_file/data_file.h"
-#include "granular/formats/data_file/section_rows.h"
 #include "granular/geometry/box.h"
 #include "granular/lines/join.h"
 #include "granular/lines/line_columns.h"
@@ -15,8 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -28,20 +27,20 @@ namespace
 {
 const std::vector<std::string> bond_columns = { "bond_id", "btype", "id1", "id2" };
 
-/// The columns of all, with the types that those of the particles have come to be.
-ColumnSchema join_schemas(const DataColumns& columns, const ColumnSchema& particles)
+/// Returns the names of types from 1 on; empty where a type has none.
+std::vector<std::string> names_of(const TypeLabels& labels)
 {
-  ColumnSchema schema = make_particle_schema(columns);
-  std::vector<ColumnSchema::TypeChange> changes;
-  for (std::size_t i = 0; i < particles.columns().size(); ++i)
+  std::vector<std::string> names;
+  for (const auto& [name, type] : labels)
   {
-    if (particles.columns()[i].type != schema.columns()[i].type)
+    constexpr std::int64_t most = 1 << 20; // a number in a file is a claim
+    if (type > 0 && type <= most)
     {
-      changes.push_back({ static_cast<int>(i), particles.columns()[i].type });
+      names.resize(std::max(names.size(), static_cast<std::size_t>(type)));
+      names[static_cast<std::size_t>(type - 1)] = name;
     }
   }
-  schema.set_types(changes);
-  return schema;
+  return names;
 }
 
 /// Leaves lines of which both ends were found.
@@ -118,12 +117,17 @@ private:
     return granular::is_wanted(request_.wanted, array);
   }
 
-  /// A section of so many rows, as an empty one where the file has none.
-  Table read_rows(const std::optional<DataSection>& section,
-    const std::vector<std::string>& columns, const Request& request)
+  /// Reads a section, which may have types in a column; of a file without it no rows.
+  Table read_rows(std::string_view name, const ColumnSchema& schema, const Request& request,
+    std::string_view labels = {}, std::string_view types = {})
   {
-    return read_section(file_, *source_, section.value_or(DataSection{}), columns, request, ranks_,
-      notices_, progress_);
+    const DataSection* const section = layout_->find(name);
+    const auto found = layout_->labels.find(labels);
+    const TypeLabels* const known = found == layout_->labels.end() ? nullptr : &found->second;
+    Table table = read_section(file_, *source_, section ? *section : DataSection{}, schema, known,
+      types, request, ranks_, notices_, progress_);
+    table.type_names = known ? names_of(*known) : std::vector<std::string>();
+    return table;
   }
 
   /// With the ids, which velocities and bonds need, whether they are wanted or not.
@@ -133,25 +137,64 @@ private:
     Request request = own_;
     request.header = this->header();
     request.wanted = [this](std::string_view name, bool is_usual) {
-      return name == "id" || name == "image" ||
+      return name == "id" || name == "image" || (name == "type" && columns_.masses) ||
         granular::is_wanted(request_.wanted, name, is_usual);
     };
-    frame = this->read_rows(layout_->particles, columns_.particles, request);
+    frame = this->read_rows(
+      "Atoms", ColumnSchema(columns_.particles), request, "Atom Type Labels", "type");
     if (options_.boundary.empty())
     {
       this->find_boundary(frame);
     }
-    frame.schema = join_schemas(columns_, frame.schema);
-    progress_.set_part(0.5, 0.6);
-    if (this->wants_velocities(frame.schema))
+    const ColumnSchema particles = std::move(frame.schema);
+    frame.schema = make_particle_schema(columns_);
+    this->change_types(frame.schema, 0, particles);
+    std::size_t first = columns_.particles.size();
+    progress_.set_part(0.5, 0.7);
+    for (const JoinedSection& section : columns_.joined)
     {
-      this->join(frame, "Velocities", layout_->velocities, columns_.velocities, true);
+      const std::size_t end = first + section.columns.size() - 1;
+      if (this->wants_any(frame.schema, first, end))
+      {
+        this->join(frame, section, first);
+      }
+      first = end;
     }
-    progress_.set_part(0.6, 0.7);
-    if (this->wants_any(frame.schema, this->first_ellipsoid(), frame.schema.columns().size()))
+    if (columns_.masses && this->wants_any(frame.schema, first, first + 1))
     {
-      this->join(frame, "Ellipsoids", layout_->ellipsoid_rows, columns_.ellipsoids, false);
+      this->add_masses(frame);
     }
+  }
+
+  /// Gives columns from the first one on the types that they have come to be.
+  static void change_types(ColumnSchema& schema, std::size_t first, const ColumnSchema& read)
+  {
+    std::vector<ColumnSchema::TypeChange> changes;
+    for (std::size_t i = first == 0 ? 0 : 1; i < read.columns().size(); ++i) // ids stand once
+    {
+      const std::size_t column = first == 0 ? i : first + i - 1;
+      if (read.columns()[i].type != schema.columns()[column].type)
+      {
+        changes.push_back({ static_cast<int>(column), read.columns()[i].type });
+      }
+    }
+    schema.set_types(changes);
+  }
+
+  /// Adds the masses of the types of particles; of a type without one nan.
+  void add_masses(Table& frame)
+  {
+    const auto types = values_in<std::int32_t>(find_array(frame, "type"));
+    const auto place = static_cast<std::size_t>(frame.schema.find_array("mass"));
+    TableArray array{ frame.schema.arrays()[place], {}, {}, {} };
+    array.block = Block(static_cast<std::size_t>(frame.rows) * sizeof(double), own_.pool);
+    std::ranges::transform(types, static_cast<double*>(array.block.data()),
+      [&](std::int32_t type)
+      {
+        const auto mass = layout_->masses.find(type);
+        return mass == layout_->masses.end() ? std::numeric_limits<double>::quiet_NaN() : mass->second;
+      });
+    frame.arrays.push_back(std::move(array));
   }
 
   /// Finds periodic axes by image counts: where a particle has crossed a face, there are others beyond it.
@@ -171,13 +214,6 @@ private:
     }
   }
 
-  /// The columns of the sections follow each other, without the ids of all but the first.
-  std::size_t first_ellipsoid() const
-  {
-    const std::size_t velocities = columns_.velocities.size();
-    return columns_.particles.size() + (velocities > 0 ? velocities - 1 : 0);
-  }
-
   bool wants_any(const ColumnSchema& schema, std::size_t first, std::size_t end) const
   {
     return std::ranges::any_of(schema.arrays(),
@@ -188,33 +224,38 @@ private:
       });
   }
 
-  bool wants_velocities(const ColumnSchema& schema) const
-  {
-    return this->wants_any(schema, columns_.particles.size(), this->first_ellipsoid());
-  }
-
-  void join(Table& frame, std::string_view name, const std::optional<DataSection>& section,
-    const std::vector<std::string>& columns, bool of_all)
+  /// first: the first of its columns in the schema of the frame.
+  void join(Table& frame, const JoinedSection& section, std::size_t first)
   {
     Request request = this->table_request();
     request.ranges = false;
-    const Table table = this->read_rows(section, columns, request);
-    std::int64_t joined = join_section(
-      frame, table, frame.schema, *source_, { name, *section, of_all }, own_.pool, ranks_);
-    ranks_.sum({ &joined, 1 });
+    const std::string& name = section.section->name;
+    const Table table = read_section(file_, *source_, *section.section,
+      ColumnSchema(section.columns), nullptr, {}, request, ranks_, notices_, progress_);
+    const auto text = std::ranges::find(table.schema.columns(), ValueType::Text, &ColumnInfo::type);
+    if (text != table.schema.columns().end())
+    {
+      throw FormatError("expected numbers in column '" + text->name + "' of the section " + name +
+          ", got words",
+        { source_->path(), section.section->name_line });
+    }
+    change_types(frame.schema, first, table.schema);
+    const std::int64_t joined =
+      join_section(frame, table, frame.schema, first, *source_, section, own_.pool, ranks_);
+    std::int64_t all = joined;
+    ranks_.sum({ &all, 1 });
     if (!this->is_filtered())
     {
-      this->note(section,
-        "rows of the section " + std::string(name) +
-          " that are left out, as their particle is not there",
-        section->rows - joined);
+      this->note(name,
+        "rows of the section " + name + " that are left out, as their particle is not there",
+        section.section->rows - all);
     }
   }
 
   /// Adds a notice about a section if the count is not 0.
-  void note(
-    const std::optional<DataSection>& section, const std::string& of_what, std::int64_t count)
+  void note(std::string_view name, const std::string& of_what, std::int64_t count)
   {
+    const DataSection* const section = layout_->find(name);
     if (section && count > 0)
     {
       notices_.push_back(
@@ -240,8 +281,8 @@ private:
     progress_.set_part(0.7, 0.8);
     Table& table = frame.bonds;
     Request request = this->table_request();
-    request.schema = make_data_bond_schema();
-    table = this->read_rows(layout_->bond_rows, bond_columns, request);
+    table = this->read_rows(
+      "Bonds", make_data_bond_schema(), request, "Bond Type Labels", "btype");
     table.header = frame.rows.header;
     table.header.counted = "BONDS";
     const bool scaled = frame.rows.coordinates == Coordinates::Scaled;
@@ -257,7 +298,7 @@ private:
     }
     if (joined.missing > 0 && !this->is_filtered())
     {
-      this->note(layout_->bond_rows,
+      this->note("Bonds",
         "bonds that are left out, as a particle of theirs is not there", joined.missing);
     }
     this->note_repeated(joined.repeated, frame.rows.schema);
@@ -275,11 +316,12 @@ private:
   void note_repeated(std::int64_t repeated, const ColumnSchema& schema)
   {
     const std::string what = "particles that have the id of another one, ";
-    if (this->wants_velocities(schema))
+    const int velocity = schema.find_array("v");
+    if (velocity >= 0 && this->is_wanted(schema.arrays()[static_cast<std::size_t>(velocity)]))
     {
-      this->note(layout_->velocities, what + "and its velocity", repeated);
+      this->note("Velocities", what + "and its velocity", repeated);
     }
-    this->note(layout_->bond_rows, what + "where bonds end at the first that has it", repeated);
+    this->note("Bonds", what + "where bonds end at the first that has it", repeated);
   }
 
   /// Lines between the ends that were found, of this rank's piece.
@@ -346,12 +388,13 @@ private:
 ColumnSchema make_particle_schema(const DataColumns& columns)
 {
   std::vector<std::string> names = columns.particles;
-  for (const auto* const more : { &columns.velocities, &columns.ellipsoids })
+  for (const JoinedSection& more : columns.joined)
   {
-    if (!more->empty())
-    {
-      names.insert(names.end(), more->begin() + 1, more->end());
-    }
+    names.insert(names.end(), more.columns.begin() + 1, more.columns.end());
+  }
+  if (columns.masses)
+  {
+    names.emplace_back("mass");
   }
   return ColumnSchema(names);
 }

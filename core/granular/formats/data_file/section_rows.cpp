@@ -2,6 +2,7 @@
 #include "granular/formats/data_file/section_rows.h"
 
 #include "granular/common/words.h"
+#include "granular/formats/data_file/data_text.h"
 #include "granular/formats/dump/read/dump_reader.h"
 #include "granular/lines/fetch_particles.h"
 #include "granular/lines/id_finder.h"
@@ -11,6 +12,7 @@
 #include "granular/text/text_scanner.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -29,50 +31,90 @@ IdSpan ids_of(const Table& frame)
     static_cast<std::size_t>(frame.rows) };
 }
 
-/// Says which row has the id of an earlier one: the text is looked at again.
-[[noreturn]] void fail_repeated(const ByteSource& source, const ParticleSection& section)
+/// Looks at the text again for the first row whose word in a column is wrong. Returns where it is.
+Where find_row(const ByteSource& source, const DataSection& section, std::size_t column,
+  const std::string& name, const std::function<bool(std::string_view, std::int64_t)>& is_wrong)
 {
-  const std::string wanted =
-    "expected one row of each particle in the section " + std::string(section.name) + ", got ";
-  TextScanner scanner(source, section.rows.offset, section.rows.line);
-  IdTable lines;
+  TextScanner scanner(source, section.offset, section.line);
   std::string_view line;
-  while (scanner.offset() < section.rows.end && scanner.next(line))
+  while (scanner.offset() < section.end && scanner.next(line))
   {
-    const std::string_view word = take_word(line);
-    std::int64_t id = 0;
-    if (parse_int64(word.data(), word.data() + word.size(), id) &&
-      !lines.add(id, scanner.last_line()))
+    const std::vector<std::string_view> words = split_words(line.substr(0, line.find('#')));
+    if (words.size() > column && is_wrong(words[column], scanner.last_line()))
     {
       Where where = scanner.where();
-      where.column = "id";
-      throw FormatError(wanted + "another one of particle " + std::to_string(id) +
-          "; the first is in line " + std::to_string(lines.find(id)),
-        where);
+      where.column = name;
+      return where;
     }
   }
-  throw FormatError(wanted + "several", { source.path(), section.rows.name_line });
+  return { source.path(), section.name_line };
 }
 
-/// The array of the table that is fetched as the places of particles are otherwise.
-const TableArray& vector_of(const Table& table)
+/// Says which row has the id of an earlier one.
+[[noreturn]] void fail_repeated(const ByteSource& source, const DataSection& section)
 {
-  return *std::ranges::find_if(
-    table.arrays, [](const TableArray& array) { return array.info.components() == 3; });
+  IdTable lines;
+  std::int64_t id = 0;
+  const auto repeats = [&](std::string_view word, std::int64_t line) {
+    return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), id)) &&
+      !lines.add(id, line);
+  };
+  const Where where = find_row(source, section, 0, "id", repeats);
+  throw FormatError("expected one row of each particle in the section " + section.name +
+      ", got another one of particle " + std::to_string(id) + "; the first is in line " +
+      std::to_string(lines.find(id)),
+    where);
 }
 
-/// The values of the table, one vector of which is where the places of particles are otherwise.
+/// Puts the numbers of types in the place of their labels.
+void number_types(Table& table, std::size_t column, const TypeLabels& labels,
+  const ByteSource& source, const DataSection& section)
+{
+  const std::string name = table.schema.columns()[column].name;
+  const auto number_of = [&](std::string_view word, std::int64_t& number)
+  {
+    const auto label = labels.find(word);
+    number = label == labels.end() ? 0 : label->second;
+    return label != labels.end() ||
+      static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), number));
+  };
+  if (TableArray* const types = find_array(table, name))
+  {
+    std::vector<std::int32_t> numbers;
+    for (const std::string& word : types->words)
+    {
+      std::int64_t number = 0;
+      if (!number_of(word, number) || !std::in_range<std::int32_t>(number))
+      {
+        throw FormatError("expected a type or its label, got " + quoted(word),
+          find_row(source, section, column, name,
+            [&](std::string_view other, std::int64_t) { return other == word; }));
+      }
+      numbers.push_back(static_cast<std::int32_t>(number));
+    }
+    const auto values =
+      std::span(static_cast<std::int32_t*>(types->block.data()), static_cast<std::size_t>(table.rows));
+    std::ranges::transform(values, values.begin(),
+      [&](std::int32_t word) { return numbers[static_cast<std::size_t>(word)]; });
+    types->words.clear();
+    types->info.type = ValueType::Int32;
+  }
+  table.schema.set_type(static_cast<int>(column), ValueType::Int32);
+}
+
+/// The arrays of a table but for its ids.
 ParticleValues values_of(const Table& table)
 {
-  const TableArray& vector = vector_of(table);
+  static constexpr double none[3] = {};
   ParticleValues values;
-  values.points = static_cast<const double*>(vector.block.data());
+  values.points = none; // sections have no places
+  values.point_step = 0;
   for (const TableArray& array : table.arrays)
   {
-    if (array.info.name != "id" && &array != &vector)
+    if (array.info.name != "id")
     {
-      values.arrays.push_back(view_rows(
-        array.info.name, ValueType::Float64, array.block.data(), array.info.components()));
+      values.arrays.push_back(
+        view_rows(array.info.name, array.info.type, array.block.data(), array.info.components()));
     }
   }
   return values;
@@ -84,70 +126,33 @@ double value_without_row(std::string_view array, std::size_t component) noexcept
   return array == "quat" && component == 0 ? 1 : array == "blockiness" ? 2 : 0;
 }
 
-/// A byte source in which each comment, from # to the end of the line, is blank. The underlying source must outlive it.
-class Uncommented final : public ByteSource
+template <class Number>
+void put_numbers(TableArray& array, std::size_t component, std::span<const double> numbers)
 {
-public:
-  /// begin: the start of a line; no byte before it is read.
-  Uncommented(const ByteSource& source, std::int64_t begin)
-    : source_(source)
-    , begin_(begin)
+  const auto size = static_cast<std::size_t>(array.info.components());
+  auto* const to = static_cast<Number*>(array.block.data()) + component;
+  for (std::size_t row = 0; row < numbers.size(); ++row)
   {
+    to[row * size] = static_cast<Number>(numbers[row]);
   }
-
-  const std::string& path() const override { return source_.path(); }
-  FileStamp stamp() const override { return source_.stamp(); }
-  double fraction(std::int64_t offset) const override { return source_.fraction(offset); }
-  bool compressed() const override { return source_.compressed(); }
-  bool concurrent() const override { return source_.concurrent(); }
-  std::string unchecked() const override { return source_.unchecked(); }
-
-  std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
-  {
-    const bool begins_inside = this->is_comment(offset);
-    const std::size_t got = source_.read(offset, buffer, bytes);
-    char* const end = buffer + got;
-    for (char* at = begins_inside ? buffer : std::find(buffer, end, '#'); at != end;
-         at = std::find(at, end, '#'))
-    {
-      while (at != end && *at != '\n')
-      {
-        *at++ = ' ';
-      }
-    }
-    return got;
-  }
-
-private:
-  /// Returns true if the line up to a byte has begun a comment.
-  bool is_comment(std::int64_t offset) const
-  {
-    std::string before;
-    for (std::int64_t bytes = 256; offset > begin_; bytes *= 2)
-    {
-      const std::int64_t from = std::max(begin_, offset - bytes);
-      before.resize(static_cast<std::size_t>(offset - from));
-      before.resize(source_.read(from, before.data(), before.size()));
-      const std::size_t feed = before.rfind('\n');
-      if (feed != before.npos || from == begin_)
-      {
-        return before.find('#', feed == before.npos ? 0 : feed) != before.npos;
-      }
-    }
-    return false;
-  }
-
-  const ByteSource& source_;
-  std::int64_t begin_;
-};
+}
 }
 
 Table read_section(const FramePiece& file, const ByteSource& source, const DataSection& section,
-  const std::vector<std::string>& columns, const Request& request, Communicator& ranks,
-  Notices& notices, Progress& progress)
+  const ColumnSchema& schema, const TypeLabels* labels, std::string_view type_column,
+  const Request& asked, Communicator& ranks, Notices& notices, Progress& progress)
 {
+  const auto types = std::ranges::find(schema.columns(), type_column, &ColumnInfo::name);
+  const auto column = static_cast<std::size_t>(types - schema.columns().begin());
+  const bool numbers_types = labels && types != schema.columns().end();
+  Request request = asked;
+  request.schema = schema;
+  if (numbers_types)
+  {
+    request.schema->set_type(static_cast<int>(column), ValueType::Text);
+  }
   FrameKind kind;
-  kind.schema = ColumnSchema(columns);
+  kind.schema = *request.schema;
   kind.layout = FrameKind::bare;
   FrameEntry entry = file.entry;
   entry.kind = std::make_shared<const FrameKind>(std::move(kind));
@@ -155,13 +160,17 @@ Table read_section(const FramePiece& file, const ByteSource& source, const DataS
   entry.offset = section.offset;
   entry.line = section.line;
   entry.end = section.end;
-  const Uncommented uncommented(source, section.offset);
-  const ByteSource* const rows = section.has_comments ? &uncommented : &source;
-  return read_dump({ { file.file, entry, rows } }, request, ranks, notices, progress);
+  const DataText text(source, section.has_comments, section.offset);
+  Table table = read_dump({ { file.file, entry, &text } }, request, ranks, notices, progress);
+  if (numbers_types)
+  {
+    number_types(table, column, *labels, text, section);
+  }
+  return table;
 }
 
 std::int64_t join_section(Table& particles, const Table& table, const ColumnSchema& schema,
-  const ByteSource& source, const ParticleSection& section, const std::shared_ptr<BlockPool>& pool,
+  std::size_t first, const ByteSource& source, const JoinedSection& section, const std::shared_ptr<BlockPool>& pool,
   Communicator& ranks)
 {
   const bool alone = ranks.size() == 1;
@@ -179,7 +188,7 @@ std::int64_t join_section(Table& particles, const Table& table, const ColumnSche
   ranks.sum({ &repeated, 1 });
   if (repeated > 0)
   {
-    fail_repeated(source, section);
+    fail_repeated(source, *section.section);
   }
   std::vector<std::int64_t> places(wanted.size());
   finder.find(wanted, places.data());
@@ -188,8 +197,8 @@ std::int64_t join_section(Table& particles, const Table& table, const ColumnSche
   {
     throw FormatError("expected a row of particle " +
         std::to_string(wanted[static_cast<std::size_t>(missing - places.begin())]) +
-        " in the section " + std::string(section.name) + ", got none",
-      { source.path(), section.rows.name_line });
+        " in the section " + section.section->name + ", got none",
+      { source.path(), section.section->name_line });
   }
   std::vector<std::size_t> rows; // of the particles that have a row, and the places of those
   std::vector<std::int64_t> found;
@@ -201,29 +210,28 @@ std::int64_t join_section(Table& particles, const Table& table, const ColumnSche
       found.push_back(places[row]);
     }
   }
-  std::vector<ArrayView> views = values.arrays;
-  views.insert(
-    views.begin(), view_rows(vector_of(table).info.name, ValueType::Float64, values.points, 3));
-  views.front().step = values.point_step;
-  std::vector<double> numbers(found.size());
-  for (const ArrayView& view : views)
+  std::vector<double> some(found.size());
+  std::vector<double> all(places.size());
+  const std::vector<int> array_of = schema.arrays_of_columns();
+  for (const ArrayView& view : values.arrays)
   {
+    const auto source_array = static_cast<std::size_t>(table.schema.find_array(view.name));
+    const auto column = static_cast<std::size_t>(table.schema.arrays()[source_array].columns.front());
+    const auto place = static_cast<std::size_t>(array_of[first + column - 1]);
+    TableArray array{ schema.arrays()[place], {}, {}, {} };
     const auto size = static_cast<std::size_t>(view.size());
-    TableArray array{ schema.arrays()[static_cast<std::size_t>(schema.find_array(view.name))], {},
-      {}, {} };
-    array.block = Block(size * places.size() * sizeof(double), pool);
+    array.block = Block(size * places.size() * size_of(array.info.type), pool);
     for (std::size_t i = 0; i < size; ++i)
     {
-      load_numbers(component_of(view, static_cast<int>(i)), found, numbers.data());
-      auto* const to = static_cast<double*>(array.block.data()) + i;
-      for (std::size_t row = 0; found.size() < places.size() && row < places.size(); ++row)
-      {
-        to[row * size] = value_without_row(view.name, i);
-      }
+      load_numbers(component_of(view, static_cast<int>(i)), found, some.data());
+      std::ranges::fill(all, value_without_row(view.name, i));
       for (std::size_t k = 0; k < rows.size(); ++k)
       {
-        to[rows[k] * size] = numbers[k];
+        all[rows[k]] = some[k];
       }
+      (array.info.type == ValueType::Int64     ? put_numbers<std::int64_t>
+          : array.info.type == ValueType::Int32 ? put_numbers<std::int32_t>
+                                                : put_numbers<double>)(array, i, all);
     }
     particles.arrays.push_back(std::move(array));
   }

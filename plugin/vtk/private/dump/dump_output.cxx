@@ -197,6 +197,10 @@ void FillFieldData(
   vtkFieldData* data, const granular::Table& frame, const granular::Vector3& pointOrigin)
 {
   FillHeader(data, frame.header, frame.coordinates, pointOrigin);
+  if (!frame.type_names.empty())
+  {
+    data->AddArray(MakeStrings("TypeNames", frame.type_names));
+  }
   const granular::ShapeSizes sizes =
     granular::find_shape_sizes(frame.schema, frame.header.dialect == granular::Dialect::Lammps);
   if (sizes != granular::ShapeSizes::None)

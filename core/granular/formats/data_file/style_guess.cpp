@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Atom styles of files that do not name them.
+#include "granular/formats/data_file/atom_styles.h"
+
+#include "granular/common/words.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace granular
+{
+namespace
+{
+using Words = std::vector<std::string_view>;
+using Styles = std::vector<Style>;
+
+constexpr double most = std::numeric_limits<double>::infinity();
+constexpr double positive = std::numeric_limits<double>::min();
+
+/// The values that a column may have. Columns of other names have any.
+struct ColumnRule
+{
+  std::string_view name;
+  double lowest;
+  double highest;
+  bool whole = true;
+  std::int64_t DataLayout::*sum = nullptr; ///< of all values, as the header counts it
+};
+
+constexpr ColumnRule column_rules[] = {
+  { "id", 0, most },
+  { "mol", 0, most },
+  { "type", 1, most },
+  { "ellipsoidflag", 0, 1, true, &DataLayout::ellipsoids },
+  { "lineflag", 0, 1, true, &DataLayout::lines },
+  { "triangleflag", 0, 1, true, &DataLayout::triangles },
+  { "bodyflag", 0, 1, true, &DataLayout::bodies },
+  { "status", 0, most },
+  { "template_index", 0, most },
+  { "template_atom", 0, most },
+  { "spin", -1, 3 },
+  { "etag", 0, most },
+  { "ix", -most, most },
+  { "iy", -most, most },
+  { "iz", -most, most },
+  { "diameter", 0, most, false },
+  { "density", positive, most, false },
+  { "mass", positive, most, false },
+  { "volume", positive, most, false },
+  { "kradius", positive, most, false },
+  { "cradius", positive, most, false },
+  { "edpd_cv", positive, most, false },
+};
+
+using Parts = std::vector<const AtomStyle*>;
+
+/// Looks for styles that fit the values of all rows, and the header.
+class StyleGuess
+{
+public:
+  explicit StyleGuess(const DataLayout& layout)
+    : layout_(layout)
+    , rules_(std::begin(column_rules), std::end(column_rules))
+  {
+    this->add_axes();
+    if (layout.atom_types > 0)
+    {
+      std::ranges::find(rules_, "type", &ColumnRule::name)->highest =
+        static_cast<double>(layout.atom_types);
+    }
+  }
+
+  /// Returns true if all rows may be those of a style, by their words and values and by the header.
+  bool fits(const Style& style) const
+  {
+    const std::vector<ColumnValues>& values = layout_.columns;
+    const Words columns = style.columns_of(values.size());
+    const DataSection* const velocities = layout_.find("Velocities");
+    bool all = !columns.empty() && (style.has_bonds || layout_.bonds + layout_.bond_types == 0) &&
+      (!velocities || velocities->rows == 0 || velocities->words == style.velocities.size());
+    for (const ColumnRule& rule : rules_)
+    {
+      const bool is_there = std::ranges::find(columns, rule.name) != columns.end();
+      all = all && (is_there || !rule.sum || layout_.*rule.sum == 0);
+    }
+    for (std::size_t i = 0; all && i < columns.size(); ++i)
+    {
+      all = this->allows(columns[i], values[i]);
+    }
+    return all;
+  }
+
+  /// Returns the styles that fit, or nearly all of them: common ones, or else rare ones.
+  Styles styles(bool with_rare) const
+  {
+    Styles found;
+    for (const AtomStyle& style : atom_styles())
+    {
+      if (with_rare == style.rare && this->fits(style_of(style)))
+      {
+        found.push_back(style_of(style));
+      }
+    }
+    return found;
+  }
+
+  /// Returns hybrid with up to three sub-styles, in all orders that fit, each list of columns once.
+  Styles hybrids(bool with_rare) const
+  {
+    Parts of;
+    for (const AtomStyle& style : atom_styles())
+    {
+      if ((with_rare || !style.rare) &&
+        std::ranges::find(of, style.columns, &AtomStyle::columns) == of.end())
+      {
+        of.push_back(&style);
+      }
+    }
+    Styles found;
+    this->add_hybrids(of, {}, found);
+    return found;
+  }
+
+private:
+  /// A coordinate may be a few boxes away, as in files that periodic boundaries will wrap.
+  void add_axes()
+  {
+    constexpr double boxes = 2;
+    constexpr std::string_view names[] = { "x", "y", "z" };
+    Vector3 lowest = { most, most, most };
+    Vector3 highest = { -most, -most, -most };
+    double longest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        const double at = layout_.box.corner(corner & 1, corner >> 1 & 1, corner >> 2)[axis];
+        lowest[axis] = std::min(lowest[axis], at);
+        highest[axis] = std::max(highest[axis], at);
+      }
+      longest = std::max(longest, highest[axis] - lowest[axis]);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      rules_.push_back({ names[axis], lowest[axis] - boxes * longest,
+        highest[axis] + boxes * longest, false });
+    }
+  }
+
+  bool allows(std::string_view column, const ColumnValues& values) const
+  {
+    const auto rule = std::ranges::find(rules_, column, &ColumnRule::name);
+    const bool labels = column == "type" && layout_.labels.contains("Atom Type Labels");
+    const bool is_number = !values.words || labels;
+    if (rule == rules_.end() || values.lowest > values.highest) // any, or none but labels
+    {
+      return is_number;
+    }
+    return is_number && values.lowest >= rule->lowest && values.highest <= rule->highest &&
+      (values.whole || !rule->whole) &&
+      (!rule->sum || values.sum == static_cast<double>(layout_.*rule->sum));
+  }
+
+  /// Adds hybrid with these sub-styles, and with more behind them.
+  void add_hybrids(const Parts& of, const Parts& parts, Styles& found) const
+  {
+    constexpr std::size_t most_parts = 3;
+    const Style style = hybrid_of(parts);
+    if (this->fits(style) &&
+      std::ranges::find(found, style.columns, &Style::columns) == found.end())
+    {
+      found.push_back(style);
+    }
+    for (std::size_t i = 0; parts.size() < most_parts && i < of.size(); ++i)
+    {
+      Parts longer = parts;
+      longer.push_back(of[i]);
+      const std::size_t columns = hybrid_of(longer).columns.size();
+      if (columns > style.columns.size() && columns <= layout_.columns.size())
+      {
+        this->add_hybrids(of, longer, found);
+      }
+    }
+  }
+
+  const DataLayout& layout_;
+  std::vector<ColumnRule> rules_;
+};
+
+std::string names_of(const Styles& list, std::string_view between = " ")
+{
+  return join_words(list, between, &Style::name);
+}
+}
+
+Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Notices& notices)
+{
+  const StyleGuess guess(layout);
+  const auto find = [&](bool rare) { return hybrid ? guess.hybrids(rare) : guess.styles(rare); };
+  Styles found = find(false);
+  Styles others; // that nobody has, where one that many have fits
+  (found.empty() ? found : others) = hybrid && !found.empty() ? Styles() : find(true);
+  const std::string_view between = hybrid ? ", " : " ";
+  const std::string words = std::to_string(layout.columns.size());
+  if (found.empty() ||
+    std::ranges::any_of(
+      found, [&](const Style& style) { return style.columns != found.front().columns; }))
+  {
+    throw FormatError((hybrid
+        ? "expected the sub-styles as in 'Atoms # hybrid sphere bond', got none, and rows of "
+        : "expected the atom style as in 'Atoms # sphere', got none, and rows of ") +
+        words + " words; " +
+        (found.empty() ? "none that is known fits all rows: set AtomStyle, or make a dump of the file"
+                       : "those of " + names_of(found, between) + " fit all rows: set AtomStyle"),
+      where);
+  }
+  notices.push_back({ where,
+    std::string(hybrid ? "the sub-styles of hybrid are" : "the atom style is") +
+      " not in the file: the columns are taken for those of " + names_of(found, between) + ", " +
+      join_words(found.front().columns_of(layout.columns.size())) +
+      (others.empty() ? "" : ", though " + names_of(others) + " would fit, too") +
+      "; if they are others, set AtomStyle" });
+  return found.front();
+}
+
+std::string style_advice(const DataLayout& layout)
+{
+  const DataSection* const atoms = layout.find("Atoms");
+  const Styles found =
+    atoms && atoms->comment.empty() ? StyleGuess(layout).styles(false) : Styles();
+  return found.empty() ? "" : "; those of " + names_of(found) + " fit all rows: set AtomStyle";
+}
+}
