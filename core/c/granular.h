@@ -131,7 +131,7 @@ typedef struct granular_open_options
   const char* preset;
   /* names of the columns of contacts and bonds, one for each column */
   const char* column_map;
-  /* atom style of data files that do not name it */
+  /* atom style of data files that do not name it: "sphere", "hybrid sphere bond" */
   const char* atom_style;
   /* boundaries of the box in data files, which do not hold them: "p p f"; empty: axes that particles have crossed are periodic */
   const char* boundary;

@@ -49,7 +49,7 @@ TEST(DataDamage, CutAnywhere)
 {
   const std::string whole = result_of(good);
   EXPECT_EQ(whole.substr(0, 22), "3 particles, 2 bonds, ");
-  const std::size_t complete = good.find("\nAngles"); // what comes then is passed over
+  const std::size_t complete = good.find("\n\nAngles"); // what comes then is passed over
   for (std::size_t bytes = 0; bytes < good.size(); ++bytes)
   {
     EXPECT_EQ(result_of(good.substr(0, bytes)), bytes >= complete ? whole : "error") << bytes;

@@ -104,8 +104,7 @@ TEST(DataFile, NotComplete)
   const std::string atoms = "Atoms # atomic\n\n1 1 0 0 0\n2 1 0 0 1\n";
   EXPECT_EQ(
     data_error("title\n\nno atoms\n"), ":3: expected a header that counts atoms, got 'no atoms'");
-  EXPECT_EQ(data_error("title\n\n2 atoms"),
-    ":3: expected a header that counts atoms, got a last line without its line feed");
+  EXPECT_EQ(data_error("title\n\n2 atoms"), ":4: expected a section Atoms with 2 rows, got none");
   EXPECT_EQ(data_error("title\n\n-2 atoms\n"), ":3: expected a number of atoms, got '-2'");
   EXPECT_EQ(data_error("title\n\n2.5 atoms\n"), ":3: expected a number of atoms, got '2.5'");
   EXPECT_EQ(data_error("title\n\n2 atoms\n0 l xlo xhi\n"), ":4: expected a number, got 'l'");
@@ -115,8 +114,7 @@ TEST(DataFile, NotComplete)
     ":9: expected 3 rows in the section Atoms, got 2, then the end of the file");
   EXPECT_EQ(data_error(data_text(1, atoms)),
     ":9: expected 1 rows in the section Atoms, got 2, then the end of the file");
-  EXPECT_EQ(data_error(data_text(3, atoms + "3 1 0 0 2")),
-    ":9: expected 3 rows in the section Atoms, got 2, then a last line without its line feed");
+  EXPECT_EQ(data_error(data_text(3, atoms + "3 1 0 0")), ":13: expected 5 words in a row, got 4");
   EXPECT_EQ(data_error(data_text(3, atoms + "O3 1 0 0 2\n")),
     ":9: expected 3 rows in the section Atoms, got 2, then 'O3 1 0 0 2'");
   EXPECT_EQ(data_error(data_text(2, atoms + "\nVelocities\n\n1 0 0 0\n")),

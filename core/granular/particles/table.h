@@ -48,8 +48,8 @@ struct Table
   Block points;                                    ///< rows x 3, double or float
   ValueRange points_range;
   std::vector<TableArray> arrays;
-  FrameHeader header;     ///< of the first piece; rows of all
-  ColumnSchema schema;    ///< of all pieces, with the final types
+  FrameHeader header;                       ///< of the first piece; rows of all
+  ColumnSchema schema;                      ///< of all pieces, with the final types
   std::vector<std::string> type_names = {}; ///< of types from 1 on; empty: the file has none
   bool has_lines = false; ///< false: the rows are no lines, or have only the ids of their ends
   Lines lines;

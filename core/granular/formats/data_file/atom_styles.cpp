@@ -67,8 +67,8 @@ const AtomStyle* find_style(std::string_view name)
 
 void add_columns(Style& to, const AtomStyle& style)
 {
-  for (const auto& [from, into] : { std::pair{ style.columns, &to.columns },
-         std::pair{ style.velocities, &to.velocities } })
+  for (const auto& [from, into] :
+    { std::pair{ style.columns, &to.columns }, std::pair{ style.velocities, &to.velocities } })
   {
     for (const std::string_view word : split_words(from))
     {

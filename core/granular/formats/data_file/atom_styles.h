@@ -22,7 +22,7 @@ struct AtomStyle
   std::string_view columns;
   std::string_view velocities = {}; ///< behind id vx vy vz
   bool has_bonds = false;           ///< particles of the style may have bonds
-  bool rare = true;                 ///< taken for a style without a name only where no other one fits
+  bool rare = true; ///< taken for a style without a name only where no other one fits
 };
 
 /// Returns the table of styles.

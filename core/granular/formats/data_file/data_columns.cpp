@@ -3,6 +3,7 @@
 
 #include "granular/common/words.h"
 #include "granular/formats/data_file/atom_styles.h"
+#include "granular/lines/line_columns.h"
 
 #include <algorithm>
 #include <iterator>
@@ -54,7 +55,8 @@ bool is_property(std::string_view name, bool may_be_array)
 {
   constexpr std::string_view others[] = { "mol", "q", "rmass", "temperature", "heatflow" };
   constexpr std::string_view custom[] = { "i_", "d_", "i2_", "d2_" };
-  return std::ranges::any_of(custom, [&](std::string_view begin) { return name.starts_with(begin); }) ||
+  return std::ranges::any_of(
+           custom, [&](std::string_view begin) { return name.starts_with(begin); }) ||
     (!may_be_array && std::ranges::find(others, name) != std::end(others));
 }
 
@@ -88,7 +90,8 @@ Strings find_property_columns(const DataSection& section, const std::string& pat
       columns.emplace_back(*name == "rmass" ? "mass" : *name);
       continue;
     }
-    const std::string base = std::string(name->substr(0, 1)) + "2" + std::string(name->substr(name->find('_')));
+    const std::string base =
+      std::string(name->substr(0, 1)) + "2" + std::string(name->substr(name->find('_')));
     for (std::size_t i = 1; i <= more + 1; ++i)
     {
       columns.push_back(base + "[" + std::to_string(i) + "]");
@@ -127,8 +130,8 @@ Style find_style(const DataLayout& layout, const DataSection* atoms, std::string
 }
 
 /// Says which sections are not read. Coefficients and labels belong to types, and no particle has them.
-void note_skipped(const DataLayout& layout, const DataColumns& columns, const std::string& path,
-  Notices& notices)
+void note_skipped(
+  const DataLayout& layout, const DataColumns& columns, const std::string& path, Notices& notices)
 {
   std::string names;
   std::int64_t line = 0;
@@ -141,7 +144,8 @@ void note_skipped(const DataLayout& layout, const DataColumns& columns, const st
     if (!is_read)
     {
       line = names.empty() ? section.name_line : line;
-      names += (names.empty() ? "" : ", ") + section.name + " (" + std::to_string(section.rows) + " rows)";
+      names +=
+        (names.empty() ? "" : ", ") + section.name + " (" + std::to_string(section.rows) + " rows)";
     }
   }
   if (!names.empty())
@@ -156,14 +160,13 @@ DataColumns find_data_columns(
 {
   const DataSection* const atoms = layout.find("Atoms");
   const Where where{ path, atoms ? atoms->name_line : 1 };
-  const Style style =
-    find_style(layout, atoms, asked == "automatic" ? "" : asked, where, notices);
+  const Style style = find_style(layout, atoms, asked == "automatic" ? "" : asked, where, notices);
   const bool empty = !atoms || atoms->rows == 0;
   DataColumns columns{ to_strings(empty ? style.columns : style.columns_of(atoms->words)) };
   for (const DataSection& section : layout.sections)
   {
     const bool velocities = section.name == "Velocities";
-    Strings own = velocities      ? to_strings(style.velocities)
+    Strings own = velocities         ? to_strings(style.velocities)
       : section.name == "Ellipsoids" ? find_ellipsoid_columns(section, path)
                                      : find_property_columns(section, path, notices);
     if (!own.empty() && (velocities || section.rows > 0))
@@ -176,5 +179,24 @@ DataColumns find_data_columns(
   columns.masses = has_masses(layout) && !has("density") && !has("mass");
   note_skipped(layout, columns, path, notices);
   return columns;
+}
+
+ColumnSchema make_particle_schema(const DataColumns& columns)
+{
+  std::vector<std::string> names = columns.particles;
+  for (const JoinedSection& more : columns.joined)
+  {
+    names.insert(names.end(), more.columns.begin() + 1, more.columns.end());
+  }
+  if (columns.masses)
+  {
+    names.emplace_back("mass");
+  }
+  return ColumnSchema(names);
+}
+
+ColumnSchema make_data_bond_schema()
+{
+  return make_local_schema({ "bond_id", "btype", "id1", "id2" });
 }
 }

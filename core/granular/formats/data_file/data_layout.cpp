@@ -138,7 +138,7 @@ private:
     }
     char byte = 0;
     return text_.read(scanner_.offset(), &byte, 1) > 0 ? "a last line without its line feed"
-                                                         : "the end of the file";
+                                                       : "the end of the file";
   }
 
   /// Passes over a section whose name is in this line.

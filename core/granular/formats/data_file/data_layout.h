@@ -40,7 +40,7 @@ struct ColumnValues
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -std::numeric_limits<double>::infinity();
   double sum = 0;
-  bool whole = true; ///< all are written as integers are: "1", and not "1.0" or "1e0"
+  bool whole = true;  ///< all are written as integers are: "1", and not "1.0" or "1e0"
   bool words = false; ///< some are no numbers; these do not count above
 };
 

@@ -14,9 +14,9 @@ std::size_t DataText::read(std::int64_t offset, char* buffer, std::size_t bytes)
   {
     buffer[got++] = '\n';
   }
-  for (char* at = begins_inside  ? buffer
-         : blanks_comments_ ? std::find(buffer, end, '#')
-                            : end;
+  for (char* at = begins_inside ? buffer
+         : blanks_comments_     ? std::find(buffer, end, '#')
+                                : end;
        at != end; at = std::find(at, end, '#'))
   {
     while (at != end && *at != '\n')

@@ -5,7 +5,6 @@
 #include "granular/formats/data_file/data_file.h"
 #include "granular/geometry/box.h"
 #include "granular/lines/join.h"
-#include "granular/lines/line_columns.h"
 #include "granular/lines/lines.h"
 #include "granular/parallel/trade.h"
 #include "granular/particles/table.h"
@@ -25,8 +24,6 @@ namespace granular
 {
 namespace
 {
-const std::vector<std::string> bond_columns = { "bond_id", "btype", "id1", "id2" };
-
 /// Returns the names of types from 1 on; empty where a type has none.
 std::vector<std::string> names_of(const TypeLabels& labels)
 {
@@ -136,7 +133,8 @@ private:
     progress_.set_part(0.1, 0.5);
     Request request = own_;
     request.header = this->header();
-    request.wanted = [this](std::string_view name, bool is_usual) {
+    request.wanted = [this](std::string_view name, bool is_usual)
+    {
       return name == "id" || name == "image" || (name == "type" && columns_.masses) ||
         granular::is_wanted(request_.wanted, name, is_usual);
     };
@@ -192,7 +190,8 @@ private:
       [&](std::int32_t type)
       {
         const auto mass = layout_->masses.find(type);
-        return mass == layout_->masses.end() ? std::numeric_limits<double>::quiet_NaN() : mass->second;
+        return mass == layout_->masses.end() ? std::numeric_limits<double>::quiet_NaN()
+                                             : mass->second;
       });
     frame.arrays.push_back(std::move(array));
   }
@@ -235,8 +234,8 @@ private:
     const auto text = std::ranges::find(table.schema.columns(), ValueType::Text, &ColumnInfo::type);
     if (text != table.schema.columns().end())
     {
-      throw FormatError("expected numbers in column '" + text->name + "' of the section " + name +
-          ", got words",
+      throw FormatError(
+        "expected numbers in column '" + text->name + "' of the section " + name + ", got words",
         { source_->path(), section.section->name_line });
     }
     change_types(frame.schema, first, table.schema);
@@ -281,8 +280,7 @@ private:
     progress_.set_part(0.7, 0.8);
     Table& table = frame.bonds;
     Request request = this->table_request();
-    table = this->read_rows(
-      "Bonds", make_data_bond_schema(), request, "Bond Type Labels", "btype");
+    table = this->read_rows("Bonds", make_data_bond_schema(), request, "Bond Type Labels", "btype");
     table.header = frame.rows.header;
     table.header.counted = "BONDS";
     const bool scaled = frame.rows.coordinates == Coordinates::Scaled;
@@ -298,8 +296,8 @@ private:
     }
     if (joined.missing > 0 && !this->is_filtered())
     {
-      this->note("Bonds",
-        "bonds that are left out, as a particle of theirs is not there", joined.missing);
+      this->note(
+        "Bonds", "bonds that are left out, as a particle of theirs is not there", joined.missing);
     }
     this->note_repeated(joined.repeated, frame.rows.schema);
     progress_.set_part(0.9, 1);
@@ -383,25 +381,6 @@ private:
   DataColumns columns_;
   Request own_; ///< of the particles, as this rank decodes them
 };
-}
-
-ColumnSchema make_particle_schema(const DataColumns& columns)
-{
-  std::vector<std::string> names = columns.particles;
-  for (const JoinedSection& more : columns.joined)
-  {
-    names.insert(names.end(), more.columns.begin() + 1, more.columns.end());
-  }
-  if (columns.masses)
-  {
-    names.emplace_back("mass");
-  }
-  return ColumnSchema(names);
-}
-
-ColumnSchema make_data_bond_schema()
-{
-  return make_local_schema(bond_columns);
 }
 
 Tables read_data(const FramePiece& file, const DataOptions& options, const Request& request,

@@ -17,9 +17,10 @@ namespace granular
 /// The columns of a data file.
 struct DataColumns
 {
-  std::vector<std::string> particles;     ///< of the section Atoms
-  std::vector<JoinedSection> joined = {}; ///< velocities, ellipsoids, and what fix property/atom wrote
-  bool masses = false;                    ///< the masses of types are an array `mass`
+  std::vector<std::string> particles; ///< of the section Atoms
+  std::vector<JoinedSection>
+    joined = {};       ///< velocities, ellipsoids, and what fix property/atom wrote
+  bool masses = false; ///< the masses of types are an array `mass`
 };
 
 /// Finds the columns: of the style that the user names, such as "sphere" or "hybrid sphere bond"; otherwise of the one in the

@@ -55,7 +55,8 @@ Where find_row(const ByteSource& source, const DataSection& section, std::size_t
 {
   IdTable lines;
   std::int64_t id = 0;
-  const auto repeats = [&](std::string_view word, std::int64_t line) {
+  const auto repeats = [&](std::string_view word, std::int64_t line)
+  {
     return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), id)) &&
       !lines.add(id, line);
   };
@@ -92,8 +93,8 @@ void number_types(Table& table, std::size_t column, const TypeLabels& labels,
       }
       numbers.push_back(static_cast<std::int32_t>(number));
     }
-    const auto values =
-      std::span(static_cast<std::int32_t*>(types->block.data()), static_cast<std::size_t>(table.rows));
+    const auto values = std::span(
+      static_cast<std::int32_t*>(types->block.data()), static_cast<std::size_t>(table.rows));
     std::ranges::transform(values, values.begin(),
       [&](std::int32_t word) { return numbers[static_cast<std::size_t>(word)]; });
     types->words.clear();
@@ -170,8 +171,8 @@ Table read_section(const FramePiece& file, const ByteSource& source, const DataS
 }
 
 std::int64_t join_section(Table& particles, const Table& table, const ColumnSchema& schema,
-  std::size_t first, const ByteSource& source, const JoinedSection& section, const std::shared_ptr<BlockPool>& pool,
-  Communicator& ranks)
+  std::size_t first, const ByteSource& source, const JoinedSection& section,
+  const std::shared_ptr<BlockPool>& pool, Communicator& ranks)
 {
   const bool alone = ranks.size() == 1;
   const IdSpan wanted = ids_of(particles);
@@ -216,7 +217,8 @@ std::int64_t join_section(Table& particles, const Table& table, const ColumnSche
   for (const ArrayView& view : values.arrays)
   {
     const auto source_array = static_cast<std::size_t>(table.schema.find_array(view.name));
-    const auto column = static_cast<std::size_t>(table.schema.arrays()[source_array].columns.front());
+    const auto column =
+      static_cast<std::size_t>(table.schema.arrays()[source_array].columns.front());
     const auto place = static_cast<std::size_t>(array_of[first + column - 1]);
     TableArray array{ schema.arrays()[place], {}, {}, {} };
     const auto size = static_cast<std::size_t>(view.size());
@@ -229,7 +231,7 @@ std::int64_t join_section(Table& particles, const Table& table, const ColumnSche
       {
         all[rows[k]] = some[k];
       }
-      (array.info.type == ValueType::Int64     ? put_numbers<std::int64_t>
+      (array.info.type == ValueType::Int64      ? put_numbers<std::int64_t>
           : array.info.type == ValueType::Int32 ? put_numbers<std::int32_t>
                                                 : put_numbers<double>)(array, i, all);
     }

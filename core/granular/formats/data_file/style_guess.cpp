@@ -123,7 +123,7 @@ public:
   }
 
 private:
-  /// A coordinate may be a few boxes away, as in files that periodic boundaries will wrap.
+  /// A coordinate may be a few boxes away, as in files that periodic boundaries will wrap; no particle is larger than the box.
   void add_axes()
   {
     constexpr double boxes = 2;
@@ -141,10 +141,11 @@ private:
       }
       longest = std::max(longest, highest[axis] - lowest[axis]);
     }
+    std::ranges::find(rules_, "diameter", &ColumnRule::name)->highest = longest;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      rules_.push_back({ names[axis], lowest[axis] - boxes * longest,
-        highest[axis] + boxes * longest, false });
+      rules_.push_back(
+        { names[axis], lowest[axis] - boxes * longest, highest[axis] + boxes * longest, false });
     }
   }
 
@@ -207,12 +208,13 @@ Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Not
     std::ranges::any_of(
       found, [&](const Style& style) { return style.columns != found.front().columns; }))
   {
-    throw FormatError((hybrid
-        ? "expected the sub-styles as in 'Atoms # hybrid sphere bond', got none, and rows of "
-        : "expected the atom style as in 'Atoms # sphere', got none, and rows of ") +
+    throw FormatError(
+      (hybrid ? "expected the sub-styles as in 'Atoms # hybrid sphere bond', got none, and rows of "
+              : "expected the atom style as in 'Atoms # sphere', got none, and rows of ") +
         words + " words; " +
-        (found.empty() ? "none that is known fits all rows: set AtomStyle, or make a dump of the file"
-                       : "those of " + names_of(found, between) + " fit all rows: set AtomStyle"),
+        (found.empty()
+            ? "none that is known fits all rows: set AtomStyle, or make a dump of the file"
+            : "those of " + names_of(found, between) + " fit all rows: set AtomStyle"),
       where);
   }
   notices.push_back({ where,
