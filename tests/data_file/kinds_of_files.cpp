@@ -249,10 +249,16 @@ TEST(DataKinds, SectionsOfFixes)
   const auto text = [](const std::string& section)
   { return text_of("2 atoms", "Atoms # atomic\n\n1 1 1 1 1\n2 1 2 2 2\n\n" + section); };
   DataRun run(
-    write_data(text("glue # i_flag d_pos\n\n2 -5 1 2 3\n1 7 4 5 6\n\nMolecules\n\n1 3\n2 4\n")));
-  expect(run, { { "i_flag", { 7, -5 } }, { "d2_pos", { 4, 5, 6, 1, 2, 3 } }, { "mol", { 3, 4 } } });
-  EXPECT_EQ(run.said(),
-    "the section glue has 4 values a particle and 2 names: the last 3 are taken for d2_pos\n");
+    write_data(text("glue # i_flag d_pos\n\n2 -5 1 2.5 3\n1 7 4 5 6\n\nMolecules\n\n1 3\n2 4\n")));
+  expect(
+    run, { { "i_flag", { 7, -5 } }, { "d2_pos", { 4, 5, 6, 1, 2.5, 3 } }, { "mol", { 3, 4 } } });
+  EXPECT_EQ(run.said(), ""); // flags are integers
+  EXPECT_EQ(said_of(text("p # d_a d_b\n\n1 1 2 3\n2 4 5 6\n")),
+    "the section p has 3 values a particle and 2 names: the columns are taken for id d_a d2_b[1] "
+    "d2_b[2]\n");
+  EXPECT_EQ(
+    names_of(DataRun(write_data(text("p # d_a i_b\n\n1 1.5 2.5 3\n2 4 5 6\n"))).read().rows),
+    "id type d2_a i_b");
   EXPECT_EQ(numbers_of(DataRun(write_data(text("p # d_a\n\n1 0.5\n"))).read().rows, "d_a"),
     (Numbers{ 0.5, 0 }));
   EXPECT_EQ(said_of(text("p # d_a\n\n1 1 2\n2 3 4\n")), ""); // of one name all are

@@ -117,6 +117,10 @@ reader.Update()
 points = reader.GetOutput().GetPointData()
 assert points.GetNumberOfArrays() == 1 and (vtk_to_numpy(points.GetArray("omega")) == read.points("omega")).all()
 
+labels = Read(os.path.join(data, "data_file", "labels.data"))
+names = [output.GetFieldData().GetAbstractArray("TypeNames") for output in (labels.particles, labels.lines)]
+assert [[array.GetValue(i) for i in range(array.GetNumberOfValues())] for array in names] == [["sand", "steel"], ["glue"]]
+
 # ---- written as a dump and read again ---------------------------------------------------------------------
 
 writer = vg.vtkGranularDumpWriter()
@@ -150,7 +154,7 @@ reader.UpdateTimeStep(2000)
 key = vg.vtkGranularDataFileReader.GetExecutive(reader).TIME_STEPS()
 assert reader.GetOutputInformation(0).Get(key) == (1000, 2000, 3000)
 assert (vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("v")) == read.points("v")).all()
-assert len(said) == 1 and "in the section Atoms, got 36" in said[0] and "left out" in said[0], said
+assert len(said) == 1 and "in the section Atoms, got 37" in said[0] and "left out" in said[0], said
 assert "AtomStyle" in str(reader) and "RegionOfInterest" in str(reader)
 for name in ("grains.dump", "local/contacts.dump", "restart/fibres.restart"):
     assert not vg.vtkGranularDataFileReader.CanReadFile(os.path.join(data, name))

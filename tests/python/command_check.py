@@ -21,6 +21,8 @@ for name in ("grains.dump", "ortho_plain.dump", "tri_plain.dump", "restart/fibre
 said, _ = granular("check", SOURCE)
 assert said.endswith("5 frames, 4800 rows, nothing is wrong\n"), said
 assert granular("check", "--quiet", SOURCE) == ("", "")
+said, _ = granular("check", os.path.join(GOOD, "data_file", "line.data"))
+assert "line.data:14: sections that are not read: Lines (1 rows)\n" in said and said.endswith("1 rows, no fault in what was read\n"), said
 
 HEADER = "ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{rows}\nITEM: BOX BOUNDS {bounds}\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z radius\n"
 

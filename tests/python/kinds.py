@@ -107,6 +107,9 @@ for number, point in zip(frame["id"].tolist(), frame.points.tolist()):
     assert all(value in atoms[number] for value in point), (number, point)
 assert len(frame.bonds["id1"]) == len(plain_data.Data(path).rows("Bonds"))
 
+run = vg.open(os.path.join(GOOD, "data_file", "hybrid_labels.data"), atom_style="hybrid sphere bond")
+assert (run[0].type_names, run[0].bonds.type_names) == (["grain", "shell"], ["weak", "strong"])
+
 # a bond of 8 across a box of 10: as the file has it, or by the nearest image where the axis is periodic
 with open("across.data", "w") as stream:
     stream.write("title\n\n2 atoms\n1 bonds\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\nAtoms # bond\n\n1 0 1 9 5 5\n2 0 1 1 5 5\n\n"

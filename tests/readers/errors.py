@@ -29,7 +29,9 @@ def data_texts():
     word = rows[:187] + [rows[187].replace(" 1 0.5", " 1 0.O")] + rows[188:]
     texts = {"short.data": (rows[:-1], speeds), "word.data": (word, speeds), "missing.data": (rows, ["201 1 2 3\n"] + speeds[1:]),
              "twice.data": (rows, ["1 1 2 3\n"] + speeds[1:])}
-    return {name: head + "".join(atoms) + "Velocities\n\n" + "".join(velocities) for name, (atoms, velocities) in texts.items()}
+    texts = {name: head + "".join(atoms) + "Velocities\n\n" + "".join(velocities) for name, (atoms, velocities) in texts.items()}
+    labels = texts["word.data"].replace("Atoms #", "Atom Type Labels\n\n1 sand\n\nAtoms #").replace(" 1 0.O", " glass 0.5")
+    return {**texts, "label.data": labels}
 
 
 def local_texts():
@@ -92,6 +94,7 @@ CASES = (
     (reader("DataFile", "gone.data"), "gone.data: cannot open", DATA, (40, 3, 1)),
     (reader("DataFile", "short.data"), "short.data:6: expected 200 rows in the section Atoms, got 199", DATA, (40, 3, 1)),
     (reader("DataFile", "word.data"), "word.data:195: column 'x': expected a number, got '0.O'", DATA, (40, 3, 1)),
+    (reader("DataFile", "label.data"), "label.data:199: column 'type': expected a type or its label, got 'glass'", DATA, (40, 3, 1)),
     (reader("DataFile", "missing.data"), "missing.data:208: expected a row of particle 200", DATA, (40, 3, 1)),
     (reader("DataFile", "twice.data"), "twice.data:409: column 'id': .*particle 1;", DATA, (40, 3, 1)),
     (reader("Local", "gone.local"), "gone.local: cannot open", BONDS, (0, 96)),

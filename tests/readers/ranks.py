@@ -36,6 +36,12 @@ def grid():
         return made("grid.dump", file.read().replace("c_pg:grid:data[1]", "id"))
 
 
+def properties():
+    """Labels of types, and a section of a fix without an array, about which nothing is said."""
+    with open(os.path.join(GOOD, "data_file", "properties.data")) as file:
+        return made("properties.data", file.read().replace("d_heat d_pos", "d_heat d_x d_y d_z"))
+
+
 # reader, files below good, times, outputs, properties: each of them with each value
 TABLE = (
     ("Dump", "grains_[0-9]*.dump", (0, 1000, 2000), (0,), {"SortById": (0, 1)}),
@@ -47,6 +53,8 @@ TABLE = (
     ("DataFile", "data_file/full.data", (None,), (0, 1, 2), {"AtomStyle": ("full",), "PeriodicLines": LINES[2:]}),
     ("DataFile", "data_file/full.data", (None,), (0, 1), {"AtomStyle": ("full",), "SortById": (1,), "PeriodicLines": LINES[1:2]}),
     ("DataFile", "data_file/sphere.data", (None,), (0,), {"AtomStyle": ("sphere",), "SortById": (0, 1), "Stride": (1, 4)}),
+    ("DataFile", properties(), (None,), (0,), {"SortById": (0, 1)}),
+    ("DataFile", "data_file/hybrid_labels.data", (None,), (0, 1), {"AtomStyle": ("hybrid sphere bond",)}),
     ("DataFile", "shapes/superellipsoids.data", (None,), (0,), {"AtomStyle": ("ellipsoid",), "SortById": (0, 1)}),
     ("Local", "local/contacts.dump", (4000, 3000, 2000, 1000), (0,), {"ColumnMap": (CONTACTS,)}),
     ("Local", "local/contacts.dump", (4000,), (0,), {"ColumnMap": (CONTACTS,), "PeriodicLines": LINES[1:]}),

@@ -50,62 +50,72 @@ Strings find_ellipsoid_columns(const DataSection& section, const std::string& pa
   return to_strings(columns);
 }
 
-/// Returns true if fix property/atom has values of this name, of which arrays may have several a particle.
-bool is_property(std::string_view name, bool may_be_array)
+/// Returns true if fix property/atom may have several values a particle under this name of the user's.
+bool may_be_array(std::string_view name)
 {
-  constexpr std::string_view others[] = { "mol", "q", "rmass", "temperature", "heatflow" };
-  constexpr std::string_view custom[] = { "i_", "d_", "i2_", "d2_" };
-  return std::ranges::any_of(
-           custom, [&](std::string_view begin) { return name.starts_with(begin); }) ||
-    (!may_be_array && std::ranges::find(others, name) != std::end(others));
+  return name.starts_with("i_") || name.starts_with("d_") || name.starts_with("i2_") ||
+    name.starts_with("d2_");
 }
 
-/// Returns the columns of a section of fix property/atom, as dumps name them; none if it is another one. LAMMPS writes the name
-/// of an array once, as d_pos: the last name is taken for that of d2_pos[1], d2_pos[2] and so on.
-Strings find_property_columns(const DataSection& section, const std::string& path, Notices& notices)
+/// Returns the columns with these names, as dumps name them, where one of them has `more` values more than one.
+Strings property_columns(const Words& names, std::string_view array, std::size_t more)
 {
-  const std::string_view names = section.name == "Molecules" ? "mol"
-    : section.name == "Charges"                              ? "q"
-                                                             : std::string_view(section.comment);
-  const Words words = split_words(names);
-  const bool fits = !words.empty() && section.words > words.size() &&
-    !is_known_section(section.name) &&
-    std::ranges::all_of(words, [](std::string_view name) { return is_property(name, false); });
-  if (!fits)
-  {
-    return {};
-  }
-  const std::size_t more = section.words - 1 - words.size();
-  const auto array = std::ranges::find_if(
-    words.rbegin(), words.rend(), [](std::string_view name) { return is_property(name, true); });
-  if (more > 0 && array == words.rend())
-  {
-    return {};
-  }
   Strings columns = { "id" };
-  for (auto name = words.begin(); name != words.end(); ++name)
+  for (const std::string_view name : names)
   {
-    if (more == 0 || &*name != &*array)
+    if (more == 0 || name != array)
     {
-      columns.emplace_back(*name == "rmass" ? "mass" : *name);
-      continue;
+      columns.emplace_back(name == "rmass" ? "mass" : name);
     }
-    const std::string base =
-      std::string(name->substr(0, 1)) + "2" + std::string(name->substr(name->find('_')));
-    for (std::size_t i = 1; i <= more + 1; ++i)
+    for (std::size_t i = 0; more > 0 && name == array && i <= more; ++i)
     {
-      columns.push_back(base + "[" + std::to_string(i) + "]");
-    }
-    if (words.size() > 1)
-    {
-      notices.push_back({ { path, section.name_line },
-        "the section " + section.name + " has " + std::to_string(section.words - 1) +
-          " values a particle and " + std::to_string(words.size()) + " names: the last " +
-          std::to_string(more + 1) + " are taken for " + base });
+      columns.push_back(std::string(name.substr(0, 1)) + "2" +
+        std::string(name.substr(name.find('_'))) + "[" + std::to_string(i + 1) + "]");
     }
   }
   return columns;
 }
+
+/// Returns the columns of a section of fix property/atom; none if it is another one. LAMMPS writes the name of an array once, and as
+/// d_pos that of d2_pos[1], d2_pos[2] and so on: the last name is taken for it of those where integers are whole.
+Strings find_property_columns(const DataSection& section, const std::string& path, Notices& notices)
+{
+  constexpr std::string_view single[] = { "mol", "q", "rmass", "temperature", "heatflow" };
+  const Words names = split_words(section.name == "Molecules" ? "mol"
+      : section.name == "Charges"                             ? "q"
+                                                              : std::string_view(section.comment));
+  const bool is_known = std::ranges::all_of(names,
+    [&](std::string_view name)
+    { return may_be_array(name) || std::ranges::find(single, name) != std::end(single); });
+  if (names.empty() || !is_known || section.words <= names.size() || is_known_section(section.name))
+  {
+    return {};
+  }
+  const std::size_t more = section.words - 1 - names.size();
+  std::vector<Strings> fitting;
+  for (const std::string_view name : names)
+  {
+    const Strings columns = property_columns(names, name, more);
+    bool fits = columns.size() == section.words && (more == 0 || may_be_array(name));
+    for (std::size_t i = 0; fits && i < columns.size(); ++i)
+    {
+      fits = !columns[i].starts_with('i') || section.values[i].whole;
+    }
+    if (fits)
+    {
+      fitting.push_back(columns);
+    }
+  }
+  if (more > 0 && fitting.size() > 1)
+  {
+    notices.push_back({ { path, section.name_line },
+      "the section " + section.name + " has " + std::to_string(section.words - 1) +
+        " values a particle and " + std::to_string(names.size()) +
+        " names: the columns are taken for " + join_words(fitting.back()) });
+  }
+  return fitting.empty() ? Strings() : fitting.back();
+}
+
 /// Finds the style of the section Atoms, and its columns.
 Style find_style(const DataLayout& layout, const DataSection* atoms, std::string_view asked,
   const Where& where, Notices& notices)

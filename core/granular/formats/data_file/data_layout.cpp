@@ -213,12 +213,13 @@ private:
   static Take taker_of(const DataSection& section)
   {
     const std::string_view name = section.name;
-    const bool guesses = section.comment.empty() || section.comment.starts_with("hybrid");
-    return name == "Atoms" && guesses ? &LayoutScan::take_values
-      : name == "Ellipsoids"          ? &LayoutScan::count_words
-      : name == "Masses"              ? &LayoutScan::take_mass
-      : name.ends_with("Type Labels") ? &LayoutScan::take_label
-                                      : Take();
+    const bool guesses =
+      name == "Atoms" && (section.comment.empty() || section.comment.starts_with("hybrid"));
+    return guesses || !is_known_section(name) ? &LayoutScan::take_values
+      : name == "Ellipsoids"                  ? &LayoutScan::count_words
+      : name == "Masses"                      ? &LayoutScan::take_mass
+      : name.ends_with("Type Labels")         ? &LayoutScan::take_label
+                                              : Take();
   }
 
   void count_words(const Words& words, DataSection& section)
@@ -229,10 +230,10 @@ private:
 
   void take_values(const Words& words, DataSection& section)
   {
-    layout_.columns.resize(section.words);
+    section.values.resize(section.words);
     for (std::size_t i = 0; i < std::min(words.size(), section.words); ++i)
     {
-      add_value(words[i], layout_.columns[i]);
+      add_value(words[i], section.values[i]);
     }
   }
 

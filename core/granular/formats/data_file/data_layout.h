@@ -19,6 +19,16 @@
 
 namespace granular
 {
+/// The values of a column in all rows.
+struct ColumnValues
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  double sum = 0;
+  bool whole = true;  ///< all are written as integers are: "1", and not "1.0" or "1e0"
+  bool words = false; ///< some are no numbers; these do not count above
+};
+
 /// The rows of a section of a data file.
 struct DataSection
 {
@@ -32,16 +42,8 @@ struct DataSection
   std::size_t words = 0;        ///< of the first row, without its comment
   std::size_t fewest_words = 0; ///< of a row of Ellipsoids: exponents may stand in some
   bool has_comments = false;    ///< some lines before the end have a #
-};
-
-/// The values of a column in all rows.
-struct ColumnValues
-{
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -std::numeric_limits<double>::infinity();
-  double sum = 0;
-  bool whole = true;  ///< all are written as integers are: "1", and not "1.0" or "1e0"
-  bool words = false; ///< some are no numbers; these do not count above
+  std::vector<ColumnValues>
+    values; ///< of Atoms if no comment names the columns, and of what fixes write
 };
 
 /// The numbers of types by their labels.
@@ -62,7 +64,6 @@ struct DataLayout : FileLayout
   std::int64_t bond_types = 0;
   Box box; ///< -0.5 to 0.5 along axes that the header lacks; boundaries are not in the file
   std::vector<DataSection> sections; ///< all, in their order
-  std::vector<ColumnValues> columns; ///< of the section Atoms, if no comment names them
   std::map<std::string, TypeLabels, std::less<>>
     labels; ///< by section: Atom Type Labels, Bond Type Labels and so on
   std::map<std::int64_t, double> masses; ///< of types: section Masses

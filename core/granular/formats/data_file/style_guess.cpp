@@ -61,6 +61,7 @@ class StyleGuess
 public:
   explicit StyleGuess(const DataLayout& layout)
     : layout_(layout)
+    , values_(layout.find("Atoms")->values)
     , rules_(std::begin(column_rules), std::end(column_rules))
   {
     this->add_axes();
@@ -74,8 +75,7 @@ public:
   /// Returns true if all rows may be those of a style, by their words and values and by the header.
   bool fits(const Style& style) const
   {
-    const std::vector<ColumnValues>& values = layout_.columns;
-    const Words columns = style.columns_of(values.size());
+    const Words columns = style.columns_of(values_.size());
     const DataSection* const velocities = layout_.find("Velocities");
     bool all = !columns.empty() && (style.has_bonds || layout_.bonds + layout_.bond_types == 0) &&
       (!velocities || velocities->rows == 0 || velocities->words == style.velocities.size());
@@ -86,7 +86,7 @@ public:
     }
     for (std::size_t i = 0; all && i < columns.size(); ++i)
     {
-      all = this->allows(columns[i], values[i]);
+      all = this->allows(columns[i], values_[i]);
     }
     return all;
   }
@@ -178,7 +178,7 @@ private:
       Parts longer = parts;
       longer.push_back(of[i]);
       const std::size_t columns = hybrid_of(longer).columns.size();
-      if (columns > style.columns.size() && columns <= layout_.columns.size())
+      if (columns > style.columns.size() && columns <= values_.size())
       {
         this->add_hybrids(of, longer, found);
       }
@@ -186,6 +186,7 @@ private:
   }
 
   const DataLayout& layout_;
+  const std::vector<ColumnValues>& values_;
   std::vector<ColumnRule> rules_;
 };
 
@@ -203,7 +204,7 @@ Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Not
   Styles others; // that nobody has, where one that many have fits
   (found.empty() ? found : others) = hybrid && !found.empty() ? Styles() : find(true);
   const std::string_view between = hybrid ? ", " : " ";
-  const std::string words = std::to_string(layout.columns.size());
+  const std::size_t words = layout.find("Atoms")->words;
   if (found.empty() ||
     std::ranges::any_of(
       found, [&](const Style& style) { return style.columns != found.front().columns; }))
@@ -211,7 +212,7 @@ Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Not
     throw FormatError(
       (hybrid ? "expected the sub-styles as in 'Atoms # hybrid sphere bond', got none, and rows of "
               : "expected the atom style as in 'Atoms # sphere', got none, and rows of ") +
-        words + " words; " +
+        std::to_string(words) + " words; " +
         (found.empty()
             ? "none that is known fits all rows: set AtomStyle, or make a dump of the file"
             : "those of " + names_of(found, between) + " fit all rows: set AtomStyle"),
@@ -220,7 +221,7 @@ Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Not
   notices.push_back({ where,
     std::string(hybrid ? "the sub-styles of hybrid are" : "the atom style is") +
       " not in the file: the columns are taken for those of " + names_of(found, between) + ", " +
-      join_words(found.front().columns_of(layout.columns.size())) +
+      join_words(found.front().columns_of(words)) +
       (others.empty() ? "" : ", though " + names_of(others) + " would fit, too") +
       "; if they are others, set AtomStyle" });
   return found.front();

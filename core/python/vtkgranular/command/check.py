@@ -170,7 +170,8 @@ def run(arguments: argparse.Namespace) -> int:
         text = json.dumps({"given": arguments.files, "frames": count, "rows": rows, "faults": checker.faults, "remarks": checker.remarks},
                           indent=2)
     else:
-        fine = "no fault" if checker.remarks else "nothing is wrong"
+        part = any("not read: " in remark for remark in checker.remarks)
+        fine = "no fault in what was read" if part else "nothing is wrong"
         faults = {0: fine, 1: "1 fault"}.get(len(checker.faults), f"{len(checker.faults)} faults")
         text = "\n".join([*("fault: " + fault for fault in checker.faults), *("remark: " + remark for remark in checker.remarks),
                           f"{shown(' '.join(arguments.files))}: {count} frames, {rows} rows, {faults}"])
