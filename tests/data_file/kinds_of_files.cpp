@@ -171,6 +171,8 @@ TEST(DataKinds, NamedStyles)
     EXPECT_EQ(arrays(style, "1 2 0.3 2500 3 4 5"), "id type diameter density radius") << style;
   }
   EXPECT_EQ(
+    arrays("hybrid/kk my own", "1 2 3 4 5 0.003 2500.5"), "id type diameter density radius");
+  EXPECT_EQ(
     arrays("hybrid charge sphere", "1 2 3 4 5 -1 0.3 2500"), "id type q diameter density radius");
   EXPECT_EQ(arrays("hybrid dipole full", "1 2 3 4 5 0 1 0 0 7"), "id type q mu mol");
   const std::string hybrid = text_of("1 atoms", "Atoms # hybrid\n\n1 2 3 4 5 0.3 2500 7\n");

@@ -27,7 +27,7 @@ for path, kind in ((os.path.join(SAMPLES, "euler_*.vtk"), "euler"), (os.path.joi
                    (os.path.join(GOOD, "decomposition_1000.vtk"), "decomposition")):
     assert json.loads(granular("info", "--json", path)[0])["kind"] == kind, path
 said, _ = granular("info", os.path.join(GOOD, "data_file", "hybrid_labels.data"))
-assert "types    1 grain, 2 shell" in said and "1 weak, 2 strong" in said and "hybrid sphere bond, id type x y z" in said, said
+assert "types    1 grain, 2 shell\n  of bonds 1 weak, 2 strong\n" in said and "hybrid sphere bond, id type x y z" in said, said
 said, _ = granular("info", os.path.join(GOOD, "tri_image.dump"))
 assert "tilts" in said and "[m/s]" not in said, said  # of LAMMPS without ITEM: UNITS nobody knows the unit
 

@@ -54,15 +54,14 @@ constexpr AtomStyle styles[] = {
 constexpr std::string_view suffixes[] = { "/kk/host", "/kk/device", "/kk", "/omp", "/gpu", "/intel",
   "/opt" };
 
-/// Returns the row of the table for a name, or null.
-const AtomStyle* find_style(std::string_view name)
+/// Returns a name without the suffix of an accelerated style.
+std::string_view plain_name(std::string_view name)
 {
   for (const std::string_view suffix : suffixes)
   {
     name.remove_suffix(name.ends_with(suffix) ? suffix.size() : 0);
   }
-  const auto* const found = std::ranges::find(styles, name, &AtomStyle::name);
-  return found == std::end(styles) ? nullptr : found;
+  return name;
 }
 
 void add_columns(Style& to, const AtomStyle& style)
@@ -82,7 +81,6 @@ void add_columns(Style& to, const AtomStyle& style)
   to.has_bonds = to.has_bonds || style.has_bonds;
   to.rare = to.rare || style.rare;
 }
-
 }
 
 std::span<const AtomStyle> atom_styles() noexcept
@@ -121,23 +119,25 @@ std::optional<Style> named_style(
   std::string_view text, bool any_behind, const DataLayout& layout, const Where& where)
 {
   Words words = split_words(text);
-  const bool hybrid = !words.empty() && words.front() == "hybrid";
+  const bool hybrid = !words.empty() && plain_name(words.front()) == "hybrid";
   words.erase(words.begin(), words.begin() + (hybrid ? 1 : 0));
   words.resize(hybrid || !any_behind ? words.size() : std::min<std::size_t>(words.size(), 1));
   std::vector<const AtomStyle*> parts;
   for (const std::string_view word : words)
   {
-    parts.push_back(find_style(word));
-    if (!parts.back() && hybrid && any_behind)
+    const auto* const part = std::ranges::find(styles, plain_name(word), &AtomStyle::name);
+    const bool is_known = part != std::end(styles);
+    if (!is_known && hybrid && any_behind && parts.empty())
     {
       return {};
     }
-    if (!parts.back() || (!hybrid && parts.size() > 1))
+    if (!is_known || (!hybrid && !parts.empty()))
     {
       throw FormatError("expected an atom style of " + join_words(styles, " ", &AtomStyle::name) +
           " or hybrid, got " + quoted(join_words(words)) + style_advice(layout),
         where);
     }
+    parts.push_back(part);
   }
   return parts.empty() ? std::nullopt
                        : std::optional(hybrid ? hybrid_of(parts) : style_of(*parts.front()));

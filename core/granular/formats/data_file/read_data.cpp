@@ -114,9 +114,9 @@ private:
     return granular::is_wanted(request_.wanted, array);
   }
 
-  /// Reads a section, which may have types in a column; of a file without it no rows.
+  /// Reads a section with types in a column, which may be labels; of a file without it no rows.
   Table read_rows(std::string_view name, const ColumnSchema& schema, const Request& request,
-    std::string_view labels = {}, std::string_view types = {})
+    std::string_view labels, std::string_view types)
   {
     const DataSection* const section = layout_->find(name);
     const auto found = layout_->labels.find(labels);
@@ -179,20 +179,20 @@ private:
     schema.set_types(changes);
   }
 
-  /// Adds the masses of the types of particles; of a type without one nan.
+  /// Adds the masses of the types of particles; nan without a mass or a type.
   void add_masses(Table& frame)
   {
     const auto types = values_in<std::int32_t>(find_array(frame, "type"));
     const auto place = static_cast<std::size_t>(frame.schema.find_array("mass"));
     TableArray array{ frame.schema.arrays()[place], {}, {}, {} };
     array.block = Block(static_cast<std::size_t>(frame.rows) * sizeof(double), own_.pool);
-    std::ranges::transform(types, static_cast<double*>(array.block.data()),
-      [&](std::int32_t type)
-      {
-        const auto mass = layout_->masses.find(type);
-        return mass == layout_->masses.end() ? std::numeric_limits<double>::quiet_NaN()
-                                             : mass->second;
-      });
+    auto* const to = static_cast<double*>(array.block.data());
+    std::fill_n(to, frame.rows, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t row = 0; row < types.size(); ++row)
+    {
+      const auto mass = layout_->masses.find(types[row]);
+      to[row] = mass == layout_->masses.end() ? to[row] : mass->second;
+    }
     frame.arrays.push_back(std::move(array));
   }
 

@@ -91,13 +91,13 @@ public:
     return all;
   }
 
-  /// Returns the styles that fit, or nearly all of them: common ones, or else rare ones.
-  Styles styles(bool with_rare) const
+  /// Returns the styles that fit, of the common or of the rare ones.
+  Styles styles(bool rare) const
   {
     Styles found;
     for (const AtomStyle& style : atom_styles())
     {
-      if (with_rare == style.rare && this->fits(style_of(style)))
+      if (rare == style.rare && this->fits(style_of(style)))
       {
         found.push_back(style_of(style));
       }
@@ -128,16 +128,15 @@ private:
   {
     constexpr double boxes = 2;
     constexpr std::string_view names[] = { "x", "y", "z" };
-    Vector3 lowest = { most, most, most };
-    Vector3 highest = { -most, -most, -most };
+    Vector3 lowest = values_of(layout_.box.origin);
+    Vector3 highest = lowest;
     double longest = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      for (int corner = 0; corner < 8; ++corner)
+      for (const Twofold3& edge : layout_.box.vectors)
       {
-        const double at = layout_.box.corner(corner & 1, corner >> 1 & 1, corner >> 2)[axis];
-        lowest[axis] = std::min(lowest[axis], at);
-        highest[axis] = std::max(highest[axis], at);
+        lowest[axis] += std::min(edge[axis].value(), 0.0);
+        highest[axis] += std::max(edge[axis].value(), 0.0);
       }
       longest = std::max(longest, highest[axis] - lowest[axis]);
     }
@@ -201,8 +200,11 @@ Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Not
   const StyleGuess guess(layout);
   const auto find = [&](bool rare) { return hybrid ? guess.hybrids(rare) : guess.styles(rare); };
   Styles found = find(false);
-  Styles others; // that nobody has, where one that many have fits
-  (found.empty() ? found : others) = hybrid && !found.empty() ? Styles() : find(true);
+  Styles others = hybrid && !found.empty() ? Styles() : find(true);
+  if (found.empty())
+  {
+    found.swap(others);
+  }
   const std::string_view between = hybrid ? ", " : " ";
   const std::size_t words = layout.find("Atoms")->words;
   if (found.empty() ||

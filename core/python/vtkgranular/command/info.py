@@ -43,7 +43,7 @@ def facts(run: Any) -> dict[str, Any]:
         box = frame.box
         found |= {"steps": steps.tolist(), "times": run.times.tolist(), "rows": rows.tolist(), "dialect": frame.dialect,
                   "units": frame.units, "label": frame.label, "types": frame.type_names,
-                  "bond types": frame.bonds.type_names if run.kind == "data" else [],
+                  "bond_types": frame.bonds.type_names if run.kind == "data" else [],
                   "box": box and {"lo": box.lo.tolist(), "hi": box.hi.tolist(), "tilts": box.tilts.tolist(),
                                   "origin": box.origin.tolist(), "vectors": box.vectors.tolist(), "boundary": box.boundary},
                   "columns": [column._asdict() for column in run.columns], "file_columns": frame.columns}
@@ -108,7 +108,8 @@ def print_facts(found: dict[str, Any], name: str) -> None:
             lines.append(("times", span(found["times"], "g")))
         lines.append(("rows", span(rows)))
         lines += [(word, found[word]) for word in ("units", "label") if found[word]]
-        lines += [(word, ", ".join(f"{i} {name}" for i, name in enumerate(found[word], 1) if name)) for word in ("types", "bond types") if found[word]]
+        for word, types in (("types", found["types"]), ("of bonds", found["bond_types"])):
+            lines += [(word, ", ".join(f"{i} {name}" for i, name in enumerate(types, 1) if name))] if types else []
         box = found["box"]
         if box:
             edges = [f"{lo:g} to {hi:g}" for lo, hi in zip(box["lo"], box["hi"])]
