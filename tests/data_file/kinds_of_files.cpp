@@ -216,6 +216,11 @@ TEST(DataKinds, Guesses)
     "words; "
     "those of hybrid sphere charge, hybrid sphere bond fit all rows: set "
     "AtomStyle");
+  EXPECT_EQ(hybrid("1 atoms\n1 bond types", "1 2 3 4 5 7 -0.5 0.3 2500.5 0 0 0"),
+    "id type mol q diameter density image radius"); // full sphere
+  EXPECT_NE(hybrid("1 atoms", "1 2 3 4 5 0.3 2500.5 -1.5 0.5 0.5 0.1 0 0 0")
+              .find("those of hybrid sphere dipole, hybrid sphere spin, hybrid dipole sphere"),
+    std::string::npos);
   EXPECT_EQ(
     told(text_of("1 atoms", "Atoms # oxdna\n\n1 2 3 4 5\n")).find("fit"), std::string::npos);
 }
@@ -261,6 +266,7 @@ TEST(DataKinds, SectionsOfFixes)
   EXPECT_EQ(
     names_of(DataRun(write_data(text("p # d_a i_b\n\n1 1.5 2.5 3\n2 4 5 6\n"))).read().rows),
     "id type d2_a i_b");
+  EXPECT_EQ(said_of(text("p # d_a i2_b\n\n1 1 2 3\n2 4 5 6\n")), "");
   EXPECT_EQ(numbers_of(DataRun(write_data(text("p # d_a\n\n1 0.5\n"))).read().rows, "d_a"),
     (Numbers{ 0.5, 0 }));
   EXPECT_EQ(said_of(text("p # d_a\n\n1 1 2\n2 3 4\n")), ""); // of one name all are

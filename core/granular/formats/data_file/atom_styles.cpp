@@ -79,7 +79,6 @@ void add_columns(Style& to, const AtomStyle& style)
   }
   to.name += (to.name.empty() ? "" : " ") + std::string(style.name);
   to.has_bonds = to.has_bonds || style.has_bonds;
-  to.rare = to.rare || style.rare;
 }
 }
 

@@ -35,7 +35,6 @@ struct Style
   std::vector<std::string_view> columns;    ///< of Atoms, without image counts
   std::vector<std::string_view> velocities; ///< of Velocities
   bool has_bonds = false;
-  bool rare = false;
 
   /// Returns the columns of rows of so many words: with image counts, or without; none where the style has others.
   std::vector<std::string_view> columns_of(std::size_t words) const;

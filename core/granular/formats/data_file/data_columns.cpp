@@ -50,11 +50,11 @@ Strings find_ellipsoid_columns(const DataSection& section, const std::string& pa
   return to_strings(columns);
 }
 
-/// Returns true if fix property/atom may have several values a particle under this name of the user's.
-bool may_be_array(std::string_view name)
+/// Returns true if fix property/atom may have several values a particle under this name of the user's; marked: it must.
+bool may_be_array(std::string_view name, bool marked = false)
 {
-  return name.starts_with("i_") || name.starts_with("d_") || name.starts_with("i2_") ||
-    name.starts_with("d2_");
+  return name.starts_with("i2_") || name.starts_with("d2_") ||
+    (!marked && (name.starts_with("i_") || name.starts_with("d_")));
 }
 
 /// Returns the columns with these names, as dumps name them, where one of them has `more` values more than one.
@@ -92,11 +92,13 @@ Strings find_property_columns(const DataSection& section, const std::string& pat
     return {};
   }
   const std::size_t more = section.words - 1 - names.size();
+  const bool marked =
+    std::ranges::any_of(names, [](std::string_view name) { return may_be_array(name, true); });
   std::vector<Strings> fitting;
   for (const std::string_view name : names)
   {
     const Strings columns = property_columns(names, name, more);
-    bool fits = columns.size() == section.words && (more == 0 || may_be_array(name));
+    bool fits = columns.size() == section.words && (more == 0 || may_be_array(name, marked));
     for (std::size_t i = 0; fits && i < columns.size(); ++i)
     {
       fits = !columns[i].starts_with('i') || section.values[i].whole;

@@ -105,20 +105,27 @@ public:
     return found;
   }
 
-  /// Returns hybrid with up to three sub-styles, in all orders that fit, each list of columns once.
-  Styles hybrids(bool with_rare) const
+  /// Returns hybrid with up to three sub-styles, in all orders that fit; rare ones only if need be, and then the fewest. Each list of
+  /// columns stands once.
+  Styles hybrids() const
   {
     Parts of;
     for (const AtomStyle& style : atom_styles())
     {
-      if ((with_rare || !style.rare) &&
-        std::ranges::find(of, style.columns, &AtomStyle::columns) == of.end())
+      if (std::ranges::find(of, style.columns, &AtomStyle::columns) == of.end())
       {
         of.push_back(&style);
       }
     }
+    constexpr std::size_t most_parts = 3;
     Styles found;
-    this->add_hybrids(of, {}, found);
+    for (std::size_t rare = 0; rare <= most_parts && found.empty(); ++rare)
+    {
+      for (std::size_t parts = 0; parts <= most_parts && (rare == 0 || found.empty()); ++parts)
+      {
+        this->add_hybrids(of, {}, parts, rare, found);
+      }
+    }
     return found;
   }
 
@@ -162,24 +169,24 @@ private:
       (!rule->sum || values.sum == static_cast<double>(layout_.*rule->sum));
   }
 
-  /// Adds hybrid with these sub-styles, and with more behind them.
-  void add_hybrids(const Parts& of, const Parts& parts, Styles& found) const
+  /// Adds hybrid with these sub-styles and so many more, of which so many may be rare.
+  void add_hybrids(
+    const Parts& of, const Parts& parts, std::size_t more, std::size_t rare, Styles& found) const
   {
-    constexpr std::size_t most_parts = 3;
     const Style style = hybrid_of(parts);
-    if (this->fits(style) &&
+    if (more == 0 && this->fits(style) &&
       std::ranges::find(found, style.columns, &Style::columns) == found.end())
     {
       found.push_back(style);
     }
-    for (std::size_t i = 0; parts.size() < most_parts && i < of.size(); ++i)
+    for (std::size_t i = 0; more > 0 && i < of.size(); ++i)
     {
       Parts longer = parts;
       longer.push_back(of[i]);
       const std::size_t columns = hybrid_of(longer).columns.size();
-      if (columns > style.columns.size() && columns <= values_.size())
+      if (columns > style.columns.size() && columns <= values_.size() && (rare > 0 || !of[i]->rare))
       {
-        this->add_hybrids(of, longer, found);
+        this->add_hybrids(of, longer, more - 1, rare - (of[i]->rare ? 1 : 0), found);
       }
     }
   }
@@ -198,18 +205,17 @@ std::string names_of(const Styles& list, std::string_view between = " ")
 Style guess_style(const DataLayout& layout, bool hybrid, const Where& where, Notices& notices)
 {
   const StyleGuess guess(layout);
-  const auto find = [&](bool rare) { return hybrid ? guess.hybrids(rare) : guess.styles(rare); };
-  Styles found = find(false);
-  Styles others = hybrid && !found.empty() ? Styles() : find(true);
+  Styles found = hybrid ? guess.hybrids() : guess.styles(false);
+  Styles others = hybrid ? Styles() : guess.styles(true);
   if (found.empty())
   {
     found.swap(others);
   }
+  const auto differs = [&](const Style& style) { return style.columns != found.front().columns; };
+  std::erase_if(others, [&](const Style& style) { return !differs(style); });
   const std::string_view between = hybrid ? ", " : " ";
   const std::size_t words = layout.find("Atoms")->words;
-  if (found.empty() ||
-    std::ranges::any_of(
-      found, [&](const Style& style) { return style.columns != found.front().columns; }))
+  if (found.empty() || std::ranges::any_of(found, differs))
   {
     throw FormatError(
       (hybrid ? "expected the sub-styles as in 'Atoms # hybrid sphere bond', got none, and rows of "
