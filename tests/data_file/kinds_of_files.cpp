@@ -144,6 +144,10 @@ TEST(DataKinds, TheLastLineNeedsNoLineFeed)
     expect(run, expected, granular::compress(good, packed).substr(0, 2));
     EXPECT_EQ(run.said(), "");
   }
+  EXPECT_EQ(data_error(text_of("2 atoms",
+              "Atoms # atomic\n\n1 1 1 1 1\n2 1 2 2 2\n\nVelocities\n\n1 0 0 0\n1 0 0 9")),
+    ":16: column 'id': expected one row of each particle in the section Velocities, got another "
+    "one of particle 1; the first is in line 15");
   std::string open = granular::compress(good, granular::Compression::Gzip);
   open.resize(open.size() - 8); // the trailer, which proves that nothing more comes
   EXPECT_NE(
@@ -247,6 +251,8 @@ TEST(DataKinds, LabelsOfTypes)
     ":17: column 'type': expected a type or its label, got 'glass'");
   EXPECT_EQ(told(text_of("2 atoms", "Masses\n\n1 heavy\n\n" + rows)),
     ":10: expected a type and its mass, got '1 heavy'");
+  EXPECT_EQ(told(text_of("2 atoms", "Masses\n\n1 2.5\n\n" + rows)), // no labels in the file
+    ":14: column 'type': expected a number, got 'A'");
   EXPECT_EQ(told(text_of("2 atoms", "Atom Type Labels\n\n1\n\n" + rows)),
     ":10: expected a type and its label, got '1'");
 }

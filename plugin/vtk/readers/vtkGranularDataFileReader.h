@@ -4,14 +4,15 @@
  * @brief   Reads data files of LAMMPS and LIGGGHTS: particles, bonds and the box.
  *
  * Reads the text files of `read_data` and `write_data`, plain or compressed with gzip or Zstandard: the sections Atoms, Velocities,
- * Ellipsoids and Bonds. Other sections are skipped. Each file is a frame; its timestep is the one in the title, or 0: see
- * vtkGranularSeriesReader. Incomplete files are left out with a warning.
+ * Ellipsoids, Bonds, Masses, the labels of types, and what `fix property/atom` writes. A warning names other sections with rows, but
+ * for coefficients. Each file is a frame; its timestep is the one in the title, or 0: see vtkGranularSeriesReader. Incomplete files
+ * are left out with a warning.
  *
  * Output port 0 holds the particles (vtkPolyData) in the order of the section Atoms, with the arrays of a dump reader: `id`, `type`,
  * `image` where rows have image counts, and the columns of the atom style: `radius` (and `diameter`) and `density` of sphere, `mol`,
- * `q`, `ellipsoidflag`. With velocities there are also `v`, `omega` of sphere and `angmom` of ellipsoid. With the section
- * Ellipsoids there are `shape`, the three diameters, `quat`, w x y z, and where the file has exponents `blockiness`; particles
- * without a row there have a shape of 0.
+ * `q`, `ellipsoidflag`. Masses of types are the array `mass`, and labels of types the field data `TypeNames`. With velocities there
+ * are also `v`, `omega` of sphere and `angmom` of ellipsoid. With the section Ellipsoids there are `shape`, the three diameters,
+ * `quat`, w x y z, and where the file has exponents `blockiness`; particles without a row there have a shape of 0.
  *
  * Output port 1 holds the bonds as lines (vtkPolyData) with the cell arrays `bond_id`, `btype`, `id1`, `id2` and `length`. Bonds
  * without one of their particles are left out, with a warning unless Stride or RegionOfInterest left the particle out. Lines are in
@@ -56,9 +57,9 @@ public:
 
   ///@{
   /**
-   * Sets the atom style, which defines the columns: atomic, charge, bond, angle, molecular, full, sphere, granular or
-   * ellipsoid. Empty or "automatic", the default: the style in the comment `Atoms # style`; without it the only style that
-   * fits the first rows, with a warning. If several styles fit, an error lists them.
+   * Sets the atom style of LAMMPS or LIGGGHTS, which defines the columns, such as "sphere" or "hybrid sphere bond". Empty or
+   * "automatic", the default: the style in the comment `Atoms # style`; without it the only style that fits all rows, with a
+   * warning. If several styles fit, an error lists them.
    */
   vtkSetStdStringFromCharMacro(AtomStyle);
   vtkGetCharFromStdStringMacro(AtomStyle);

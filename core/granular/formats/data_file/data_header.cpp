@@ -89,6 +89,13 @@ bool is_integer(std::string_view word, std::int64_t& value)
   return static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), value));
 }
 
+bool is_type(std::string_view word, const TypeLabels* labels, std::int64_t& type)
+{
+  const bool is_label = labels && labels->contains(word);
+  type = is_label ? labels->find(word)->second : 0;
+  return is_label || is_integer(word, type);
+}
+
 void take_title(std::string_view title, DataLayout& layout)
 {
   const Words words = split_words(title);

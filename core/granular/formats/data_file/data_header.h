@@ -26,6 +26,9 @@ bool names_section(std::string_view line) noexcept;
 /// Returns true if a word is a 64-bit integer, which is stored.
 bool is_integer(std::string_view word, std::int64_t& value);
 
+/// Returns true if a word is the number of a type or its label; the number is stored. labels may be null.
+bool is_type(std::string_view word, const TypeLabels* labels, std::int64_t& type);
+
 /// Takes the facts of the title that write_data makes: "..., timestep = 2000, units = lj".
 void take_title(std::string_view title, DataLayout& layout);
 

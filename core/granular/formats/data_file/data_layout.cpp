@@ -239,11 +239,9 @@ private:
 
   void take_mass(const Words& words, DataSection&)
   {
-    const TypeLabels& labels = layout_.labels["Atom Type Labels"];
-    const auto label = labels.find(words[0]);
-    std::int64_t type = label == labels.end() ? 0 : label->second;
+    std::int64_t type = 0;
     double mass = 0;
-    if ((type == 0 && !is_integer(words[0], type)) || words.size() < 2 ||
+    if (words.size() < 2 || !is_type(words[0], layout_.find_labels("Atom Type Labels"), type) ||
       !parse_double(words[1].data(), words[1].data() + words[1].size(), mass))
     {
       throw FormatError(
@@ -284,6 +282,12 @@ const DataSection* DataLayout::find(std::string_view name) const noexcept
 {
   const auto found = std::ranges::find(sections, name, &DataSection::name);
   return found == sections.end() ? nullptr : &*found;
+}
+
+const TypeLabels* DataLayout::find_labels(std::string_view name) const noexcept
+{
+  const auto found = labels.find(name);
+  return found == labels.end() ? nullptr : &found->second;
 }
 
 bool is_known_section(std::string_view name)

@@ -70,6 +70,9 @@ struct DataLayout : FileLayout
 
   /// Returns the section of this name, or null.
   const DataSection* find(std::string_view name) const noexcept;
+
+  /// Returns the labels in the section of this name, or null.
+  const TypeLabels* find_labels(std::string_view name) const noexcept;
 };
 
 /// Returns true if a name is that of a section of LAMMPS' own; others belong to fixes.

@@ -119,8 +119,7 @@ private:
     std::string_view labels, std::string_view types)
   {
     const DataSection* const section = layout_->find(name);
-    const auto found = layout_->labels.find(labels);
-    const TypeLabels* const known = found == layout_->labels.end() ? nullptr : &found->second;
+    const TypeLabels* const known = layout_->find_labels(labels);
     Table table = read_section(file_, *source_, section ? *section : DataSection{}, schema, known,
       types, request, ranks_, notices_, progress_);
     table.type_names = known ? names_of(*known) : std::vector<std::string>();

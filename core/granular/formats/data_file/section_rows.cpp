@@ -2,6 +2,7 @@
 #include "granular/formats/data_file/section_rows.h"
 
 #include "granular/common/words.h"
+#include "granular/formats/data_file/data_header.h"
 #include "granular/formats/data_file/data_text.h"
 #include "granular/formats/dump/read/dump_reader.h"
 #include "granular/lines/fetch_particles.h"
@@ -35,7 +36,8 @@ IdSpan ids_of(const Table& frame)
 Where find_row(const ByteSource& source, const DataSection& section, std::size_t column,
   const std::string& name, const std::function<bool(std::string_view, std::int64_t)>& is_wrong)
 {
-  TextScanner scanner(source, section.offset, section.line);
+  const DataText text(source);
+  TextScanner scanner(text, section.offset, section.line);
   std::string_view line;
   while (scanner.offset() < section.end && scanner.next(line))
   {
@@ -72,20 +74,13 @@ void number_types(Table& table, std::size_t column, const TypeLabels& labels,
   const ByteSource& source, const DataSection& section)
 {
   const std::string name = table.schema.columns()[column].name;
-  const auto number_of = [&](std::string_view word, std::int64_t& number)
-  {
-    const auto label = labels.find(word);
-    number = label == labels.end() ? 0 : label->second;
-    return label != labels.end() ||
-      static_cast<bool>(parse_int64(word.data(), word.data() + word.size(), number));
-  };
   if (TableArray* const types = find_array(table, name))
   {
     std::vector<std::int32_t> numbers;
     for (const std::string& word : types->words)
     {
       std::int64_t number = 0;
-      if (!number_of(word, number) || !std::in_range<std::int32_t>(number))
+      if (!is_type(word, &labels, number) || !std::in_range<std::int32_t>(number))
       {
         throw FormatError("expected a type or its label, got " + quoted(word),
           find_row(source, section, column, name,

@@ -158,8 +158,8 @@ private:
   bool allows(std::string_view column, const ColumnValues& values) const
   {
     const auto rule = std::ranges::find(rules_, column, &ColumnRule::name);
-    const bool labels = column == "type" && layout_.labels.contains("Atom Type Labels");
-    const bool is_number = !values.words || labels;
+    const bool is_number =
+      !values.words || (column == "type" && layout_.find_labels("Atom Type Labels"));
     if (rule == rules_.end() || values.lowest > values.highest) // any, or none but labels
     {
       return is_number;
