@@ -10,13 +10,16 @@
 
 namespace
 {
-/// What a file with these rows is taken for, or the error behind its path.
+/// What a file with these rows is taken for, the error behind its path, or what is said where no preset fits.
 std::string taken(const std::string& columns, const std::vector<std::string>& rows)
 {
   const std::string path = write_text("columns.dump", local_frame(columns, rows));
+  LocalRun run({ path });
   std::string found;
-  const std::string error = error_of([&] { found = LocalRun({ path }).found(); });
-  return error.empty() ? found : error.substr(path.size());
+  const std::string error = error_of([&] { found = run.found(); });
+  return !error.empty()                               ? error.substr(path.size())
+    : run.said().find("AsNamed") != std::string::npos ? found + run.said().substr(path.size())
+                                                      : found;
 }
 
 constexpr const char* contacts = "x1 y1 z1 x2 y2 z2 id1 id2 periodic forcex forcey forcez";
@@ -36,6 +39,10 @@ TEST(LocalColumns, NamesThatSayIt)
     "x1 y1 z1 x2 y2 z2 id1 id2 btype forcex forcey forcez torquex torquey torquez "
     "equilibrium_length");
   EXPECT_EQ(taken("index natom1 natom2 c_d", { "1 1 2 0.5" }), "index id1 id2 c_d");
+  EXPECT_EQ(taken("ParticleIdentifiers.A ParticleIdentifiers.B BondType", { "1 2 1", "2 3 2" }),
+    "id1 id2 btype")
+    << "as OVITO has them";
+  EXPECT_EQ(taken("bond_id bond_type atom1 atom2", { "1 1 1 2" }), "bond_id btype id1 id2");
 }
 
 // Column 9 tells bonds from contacts, and from contacts with walls.
@@ -54,7 +61,7 @@ TEST(LocalColumns, TwelveColumns)
   EXPECT_EQ(taken(names, { "1 1 0 1 1 0.5 0 40 7 0 0 5" }), walls) << "particles count from 1";
 }
 
-// What cannot be known is an error that lists what fits.
+// Several presets that fit are an error that lists them; where none does, the names count, and a line says how to get lines.
 TEST(LocalColumns, Undecidable)
 {
   const std::string both = taken(silent_columns(12), { "1 1 1 9.5 1 1 7 8 1 0 0 5" });
@@ -67,8 +74,11 @@ TEST(LocalColumns, Undecidable)
     taken(silent_columns(3), { "1 2 1", "1 3 1" }).find("several presets fit"), std::string::npos);
   EXPECT_NE(
     taken(silent_columns(3), { "0.5 2 1" }).find("no preset fits the values"), std::string::npos);
-  EXPECT_NE(
-    taken(silent_columns(5), { "1 2 1 1 1" }).find("no preset has as many"), std::string::npos);
+  EXPECT_EQ(taken("atype aatom1 aatom2 aatom3", { "1 1 2 3", "1 2 3 4" }),
+    "atype aatom1 aatom2 aatom3:1: the columns are taken as they are named (Preset AsNamed), "
+    "without lines: "
+    "no preset has as many. For lines name the particles in ColumnMap, as in "
+    "id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2\n");
 }
 
 // Two contacts with two walls, or two bonds of two types: few rows do not say which.
@@ -124,8 +134,11 @@ TEST(LocalColumns, TypesHaveFewValues)
   EXPECT_EQ(taken(silent_columns(3), type_last), "id1 id2 btype");
   type_last[4] = "5 6 -2"; // breaking
   EXPECT_EQ(taken(silent_columns(3), type_last), "id1 id2 btype");
-  type_last[4] = "5 6 0";
-  EXPECT_NE(taken(silent_columns(3), type_last).find("no preset fits"), std::string::npos);
+  type_last[4] = "5 6 0"; // damaged
+  EXPECT_TRUE(
+    taken(silent_columns(3), type_last)
+      .ends_with("; no preset fits the values, but for a few rows: BondIds (id1 id2 btype); "
+                 "set Preset or ColumnMap"));
 }
 
 // One frame with rows says what all are.
@@ -185,6 +198,50 @@ TEST(ColumnMap, NamesAndKeywords)
     "id1_file id2_file id1 id2");
   EXPECT_EQ(join_words(name_columns(std::vector<std::string>(6, "c"), std::string("history id"))),
     "id1 id2 periodic history1 history2 history3");
+  // one name a column: of LAMMPS, whose force is a number
+  EXPECT_EQ(join_words(name_columns(
+              std::vector<std::string>(7, "c"), std::string("index patom1 patom2 force fx fy fz"))),
+    "index id1 id2 force forcex forcey forcez");
+}
+
+// Where the last columns of a compute were not dumped, history stands for fewer, and all behind it are others.
+TEST(ColumnMap, HistoryThatIsContradicted)
+{
+  // two contacts of pair/gran/local pos id history contactArea contactPoint ms_id, with three numbers of history
+  const std::vector<std::string> rows = {
+    "0 0 0 2 0 0 1 2 0 -0.1 0.2 0.3 0.5 1 0 0 7 8",
+    "0 0 3 0 2 3 1 3 0 0.2 -0.2 0.1 0.6 0 1 3 7 -1",
+  };
+  const auto error = [&](std::size_t left_out, const std::string& map)
+  {
+    std::vector<std::string> cut;
+    for (const std::string& row : rows)
+    {
+      std::vector<std::string_view> words = granular::split_words(row);
+      words.resize(words.size() - left_out);
+      cut.push_back(granular::join_words(words));
+    }
+    const std::string path =
+      write_text("cut.dump", local_frame(silent_columns(static_cast<int>(18 - left_out)), cut, ""));
+    LocalRun run({ path });
+    granular::Progress progress;
+    const granular::LocalSample sample =
+      granular::read_sample(run.index(), *run.index().first_piece(0).entry.kind, progress);
+    return error_of(
+      [&] {
+        granular::check_history(run.columns(), granular::name_columns(run.columns(), map), sample);
+      });
+  };
+  const std::string map = "pos id history contactArea contactPoint ";
+  EXPECT_EQ(error(0, map + "ms_id"), "");
+  EXPECT_EQ(error(1, map + "ms_id"),
+    "expected points between the ends, got none, in the column c_a[13] that is taken for "
+    "contact_pointx: history in ColumnMap stands for the columns that are left, here 2; the last "
+    "columns of the compute may not be in the file");
+  EXPECT_EQ(error(2, map + "ms_id").substr(0, 84),
+    "expected no negative numbers, got -0.2, in the column c_a[11] that is taken for cont");
+  EXPECT_EQ(error(2, map), "");
+  EXPECT_NE(error(3, map), "");
 }
 
 TEST(ColumnMap, Errors)

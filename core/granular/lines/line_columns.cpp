@@ -77,8 +77,8 @@ constexpr KnownColumn table[] = {
   // clang-format on
 };
 
-/// Other spellings of columns: by property/local, bond/local and pair/local of LIGGGHTS, LAMMPS and their forks, and
-/// by scripts that name them.
+/// Other spellings of columns: by property/local, bond/local and pair/local of LIGGGHTS, LAMMPS and their forks, by
+/// scripts that name them, and by the manual of OVITO.
 constexpr std::string_view spellings[][2] = {
   { "batom1", "id1" },
   { "batom2", "id2" },
@@ -88,6 +88,12 @@ constexpr std::string_view spellings[][2] = {
   { "patom2", "id2" },
   { "tag1", "id1" },
   { "tag2", "id2" },
+  { "atom1", "id1" },
+  { "atom2", "id2" },
+  { "ParticleIdentifiers.A", "id1" },
+  { "ParticleIdentifiers.B", "id2" },
+  { "BondType", "btype" },
+  { "bond_type", "btype" },
   { "ntype1", "type1" },
   { "ntype2", "type2" },
   { "ptype1", "type1" },
@@ -168,6 +174,12 @@ std::vector<std::string> expand_keywords(std::vector<std::string> words, std::si
   if (std::ranges::all_of(words, is_keyword))
   {
     std::ranges::stable_sort(words, before);
+  }
+  else if (words.size() == columns) // force may be the number that LAMMPS calls so
+  {
+    std::ranges::transform(
+      words, words.begin(), [](const auto& word) { return std::string(local_name(word)); });
+    return words;
   }
   for (std::size_t i = 1; i < words.size(); ++i)
   {

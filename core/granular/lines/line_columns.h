@@ -23,7 +23,8 @@ std::string_view local_name(std::string_view name) noexcept;
 /// wall/gran/local): pos vel id force force_normal force_tangential torque torque_normal torque_tangential history
 /// contactArea delta contactPoint ms_id heatFlux; wall_id is the id of wall/gran/local. Each keyword stands for its columns,
 /// history for as many as are left. If all words are keywords they are taken in this order, which is that of the file in any
-/// order of the compute; among other names they must be in it. Throws FormatError.
+/// order of the compute; among other names they must be in it. As many words as columns, of which some are no keywords, name one
+/// column each. Throws FormatError.
 std::vector<std::string> expand_keywords(std::vector<std::string> words, std::size_t columns);
 
 /// Returns columns and arrays of local data with these names of the table, or any others. Coordinates of the ends become the

@@ -19,9 +19,16 @@ std::vector<std::string> find_meaning(const RunPlace& place,
   const std::vector<std::string>& columns, const Where& where, Notices& notices, Progress& progress)
 {
   const std::string& asked = place.options.preset;
-  if (!place.options.column_map.empty())
+  const std::string& map = place.options.column_map;
+  const FrameKind& kind = *place.index.first_piece(place.frame).entry.kind;
+  if (!map.empty())
   {
-    return name_columns(columns, place.options.column_map);
+    std::vector<std::string> names = name_columns(columns, map);
+    if (map.find("history") != map.npos)
+    {
+      check_history(columns, names, read_sample(place.index, kind, progress));
+    }
+    return names;
   }
   if (asked == "AsNamed")
   {
@@ -37,7 +44,6 @@ std::vector<std::string> find_meaning(const RunPlace& place,
     }
     return name_columns(columns, *preset);
   }
-  const FrameKind& kind = *place.index.first_piece(place.frame).entry.kind;
   const LocalSample sample =
     say_what_they_are(columns) ? LocalSample() : read_sample(place.index, kind, progress);
   return find_columns(columns, sample, where, notices);

@@ -53,6 +53,21 @@ std::vector<std::size_t> columns_for(
   return places.size() == split_words(preset.columns).size() ? places : std::vector<std::size_t>();
 }
 
+/// Every second row of a sample; none if they are too few to tell anything.
+LocalSample half_of(const LocalSample& sample, std::size_t first)
+{
+  constexpr std::size_t least_rows = 6;
+  LocalSample half = { .box = sample.box, .has_box = sample.has_box };
+  const std::size_t width = sample.rows == 0 ? 0 : sample.values.size() / sample.rows;
+  for (std::size_t row = first; sample.rows >= least_rows && row < sample.rows; row += 2)
+  {
+    const auto from = sample.values.begin() + static_cast<std::ptrdiff_t>(row * width);
+    half.values.insert(half.values.end(), from, from + static_cast<std::ptrdiff_t>(width));
+    ++half.rows;
+  }
+  return half;
+}
+
 std::string describe(const LocalPreset& preset)
 {
   return std::string(preset.name) + " (" + std::string(preset.columns) + ")";
@@ -160,6 +175,11 @@ std::vector<std::string> name_columns(
 {
   std::vector<std::size_t> places = columns_for(preset, columns, false);
   places = places.empty() ? columns_for(preset, columns, true) : places;
+  if (columns.empty())
+  {
+    const std::vector<std::string_view> names = split_words(preset.columns);
+    return { names.begin(), names.end() };
+  }
   if (places.empty())
   {
     throw FormatError("expected the " + std::to_string(split_words(preset.columns).size()) +
@@ -182,10 +202,10 @@ std::vector<std::string> name_columns(
   if (std::ranges::any_of(
         words, [](const std::string& word) { return word.find('=') != word.npos; }))
   {
-    return name_by_pairs(columns, words);
+    return columns.empty() ? columns : name_by_pairs(columns, words);
   }
   std::vector<std::string> names = expand_keywords(words, columns.size());
-  if (names.size() != columns.size())
+  if (names.size() != columns.size() && !columns.empty())
   {
     throw FormatError("expected a name for each of " + std::to_string(columns.size()) +
       " columns in the column map, got " + std::to_string(names.size()) + ": " + join_words(names) +
@@ -193,6 +213,16 @@ std::vector<std::string> name_columns(
   }
   check_distinct(names);
   return names;
+}
+
+bool maps_lines(const std::string& map)
+{
+  std::vector<std::string> words = words_of_list(map);
+  for (std::string& word : words)
+  {
+    word.resize(std::min(word.find('='), word.size()));
+  }
+  return say_what_they_are(expand_keywords(words, 0));
 }
 
 bool say_what_they_are(const std::vector<std::string>& columns)
@@ -208,8 +238,10 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
   {
     return name_columns(columns);
   }
+  const LocalSample halves[] = { half_of(sample, 0), half_of(sample, 1) };
   std::vector<const LocalPreset*> as_long;
   std::vector<const LocalPreset*> fitting;
+  std::vector<const LocalPreset*> nearly; // but for rows of one half
   for (const LocalPreset& preset : presets)
   {
     const std::vector<std::size_t> places = columns_for(preset, columns, false);
@@ -220,35 +252,42 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
       {
         fitting.push_back(&preset);
       }
-    }
-  }
-  if (fitting.size() != 1)
-  {
-    const std::vector<const LocalPreset*>& listed = fitting.empty() ? as_long : fitting;
-    std::string text = "expected columns whose names say what they hold, got " +
-      join_words(columns) + "; " +
-      (listed.empty()       ? "no preset has as many"
-          : fitting.empty() ? "no preset fits the values, of as many columns are"
-                            : "several presets fit the values:");
-    for (const LocalPreset* preset : listed)
-    {
-      text += " " + describe(*preset);
-    }
-    throw FormatError(text + "; set Preset or ColumnMap", where);
-  }
-  if (as_long.size() > 1)
-  {
-    std::vector<std::string_view> others;
-    for (const LocalPreset* preset : as_long)
-    {
-      if (preset != fitting[0])
+      else if (std::ranges::any_of(halves,
+                 [&](const LocalSample& half)
+                 { return half.rows > 0 && fits(preset, places, columns.size(), half); }))
       {
-        others.push_back(preset->name);
+        nearly.push_back(&preset);
       }
     }
+  }
+  const bool is_broken = fitting.empty() && !nearly.empty();
+  if (fitting.size() > 1 || is_broken)
+  {
+    throw FormatError("expected columns whose names say what they hold, got " +
+        join_words(columns) + "; " +
+        (is_broken ? "no preset fits the values, but for a few rows: "
+                   : "several presets fit the values: ") +
+        join_words(is_broken ? nearly : fitting, " ",
+          [](const LocalPreset* preset) { return describe(*preset); }) +
+        "; set Preset or ColumnMap",
+      where);
+  }
+  if (fitting.empty())
+  {
+    notices.push_back({ where,
+      std::string(
+        "the columns are taken as they are named (Preset AsNamed), without lines: no preset ") +
+        (as_long.empty() ? "has as many" : "fits the values") +
+        ". For lines name the particles in ColumnMap, as in id1=2 id2=3, or the ends, x1 y1 z1 x2 "
+        "y2 z2" });
+    return name_columns(columns);
+  }
+  if (std::erase(as_long, fitting[0]); !as_long.empty())
+  {
     notices.push_back({ where,
       "the columns are not named: taken for the preset " + describe(*fitting[0]) +
-        ", which fits the values, and not for " + join_words(others) +
+        ", which fits the values, and not for " +
+        join_words(as_long, " ", [](const LocalPreset* preset) { return preset->name; }) +
         (fitting[0]->columns.find("force") != std::string_view::npos
             ? "; that forces are forces, and not torques, the values do not say: see ColumnMap"
             : "") });

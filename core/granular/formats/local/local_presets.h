@@ -40,27 +40,37 @@ struct LocalSample
 bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
   const LocalSample& sample);
 
+/// Throws FormatError if rows contradict the names that a map with the keyword history gives to columns: it stands for as many
+/// columns as are left, so others are taken for the last ones of the compute where the file lacks these. Ids, types and flags are as
+/// above, areas not negative, and some contact points between the ends.
+void check_history(const std::vector<std::string>& columns, const std::vector<std::string>& names,
+  const LocalSample& sample);
+
 /// Returns the columns of a file under names of local_known_columns() where these give the meaning; others keep their own.
 std::vector<std::string> name_columns(const std::vector<std::string>& columns);
 
-/// Returns the columns by a preset, for all columns, or for those with meaningless names if their number fits. Throws
-/// FormatError if neither number fits.
+/// Returns the columns by a preset, for all columns, or for those with meaningless names if their number fits; or those of the
+/// preset for a frame without rows that names no columns. Throws FormatError if neither number fits.
 std::vector<std::string> name_columns(
   const std::vector<std::string>& columns, const LocalPreset& preset);
 
 /// Returns the columns by the user's words: a name for each column in order, or keywords of the computes of contacts (pos id
 /// force), or both (see expand_keywords); or pairs NAME=COLUMN, where COLUMN is a name or a number from 1, and other columns
-/// keep their names. Names and columns are separated by blanks or commas. Throws FormatError for a repeated name, a column
-/// that is named twice or missing, and a wrong number of names.
+/// keep their names. Names and columns are separated by blanks or commas. A frame without rows that names no columns has those of
+/// the map. Throws FormatError for a repeated name, a column that is named twice or missing, and a wrong number of names.
 std::vector<std::string> name_columns(
   const std::vector<std::string>& columns, const std::string& map);
+
+/// Returns true if the names of a map give the positions of lines or their particles.
+bool maps_lines(const std::string& map);
 
 /// Returns true if the names of columns give the positions of lines or their particles: no values are needed then.
 bool say_what_they_are(const std::vector<std::string>& columns);
 
 /// Finds the meaning of columns: by their names if these give the positions of lines or their particles; otherwise by the
-/// only preset that fits the sample, with a notice that gives the reason if others have as many columns. Without rows the
-/// names count. Throws FormatError that lists the presets if none or several fit.
+/// only preset that fits the sample, with a notice that gives the reason if others have as many columns. If none fits, the
+/// names count, with a notice that says how to get lines; so they do without rows. Throws FormatError that lists the presets if
+/// several fit, or some fit but for a few rows, which are damaged: they fit every second row.
 std::vector<std::string> find_columns(const std::vector<std::string>& columns,
   const LocalSample& sample, const Where& where, Notices& notices);
 }

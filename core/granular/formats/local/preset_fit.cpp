@@ -2,11 +2,13 @@
 #include "granular/common/words.h"
 #include "granular/formats/local/local_presets.h"
 #include "granular/lines/minimum_image.h"
+#include "granular/numbers/number_print.h"
 #include "granular/particles/point_forms.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace granular
@@ -18,28 +20,37 @@ bool is_integral(double value) noexcept
   return std::isfinite(value) && value == std::nearbyint(value);
 }
 
-/// A rule for the numbers of a column; null: all are right.
-using Rule = bool (*)(double);
-
-Rule rule_of(std::string_view name) noexcept
+/// A rule for the numbers of a column.
+struct Rule
 {
-  struct Entry
-  {
-    std::string_view name;
-    Rule rule;
-  };
-  static constexpr Entry rules[] = {
-    { "id1", [](double value) { return is_integral(value) && value >= 1; } },
-    { "id2", [](double value) { return is_integral(value) && value >= 1; } },
-    { "mesh", [](double value) { return is_integral(value) && value >= 0; } },
-    { "triangle", [](double value) { return is_integral(value) && value >= 0; } },
-    { "btype", [](double value) { return is_integral(value) && value != 0; } },
-    { "periodic", [](double value) { return value == 0 || value == 1; } },
-    { "dist", [](double value) { return value >= 0; } },
-  };
-  const auto* const found = std::ranges::find(rules, name, &Entry::name);
-  return found == std::end(rules) ? nullptr : found->rule;
-}
+  std::string_view name;
+  bool (*holds)(double);
+  const char* expected;
+};
+
+constexpr auto is_count = [](double value) { return is_integral(value) && value >= 1; };
+constexpr auto is_number = [](double value) { return is_integral(value) && value >= 0; };
+constexpr auto is_positive = [](double value) { return value >= 0; };
+
+constexpr Rule rules[] = {
+  { "id1", is_count, "whole numbers from 1" },
+  { "id2", is_count, "whole numbers from 1" },
+  { "mesh", is_number, "whole numbers from 0" },
+  { "triangle", is_number, "whole numbers from 0" },
+  { "btype", [](double value) { return is_integral(value) && value != 0; }, "whole numbers but 0" },
+  { "periodic", [](double value) { return value == 0 || value == 1; }, "0 and 1" },
+  { "dist", is_positive, "no negative numbers" },
+  { "ms_id1", is_integral, "whole numbers" },
+  { "ms_id2", is_integral, "whole numbers" },
+  { "contact_area", is_positive, "no negative numbers" },
+};
+
+/// A column whose values are not what its name says.
+struct Contradiction
+{
+  std::size_t column = 0;
+  std::string text = {}; ///< "whole numbers, got 0.5"; empty: there is none
+};
 
 /// The rows of a sample as a preset sees them.
 class PresetRows
@@ -54,19 +65,40 @@ public:
   {
   }
 
-  bool keep_rules() const
+  /// The first column that breaks its rule.
+  Contradiction broken_rule() const
   {
-    for (std::size_t i = 0; i < names_.size(); ++i)
+    for (const auto& [name, holds, expected] : rules)
     {
-      const Rule rule = rule_of(names_[i]);
-      if (rule &&
-        !this->all_rows(
-          [&](std::size_t row) { return rule(sample_.values[row * all_ + columns_[i]]); }))
+      for (std::size_t row = 0; this->has(name) && row < sample_.rows; ++row)
       {
-        return false;
+        if (const double value = this->value(row, name); !holds(value))
+        {
+          return { this->place_of(name), std::string(expected) + ", got " + to_text(value) };
+        }
       }
     }
-    return true;
+    return {};
+  }
+
+  /// Contact points lie between the ends, but for those at images of these.
+  bool contact_points_fit() const
+  {
+    std::size_t whole = 0; // lines
+    const auto is_apart = [&](std::size_t row)
+    {
+      const bool split = this->has("periodic") && this->value(row, "periodic") != 0;
+      whole += split ? 0 : 1;
+      return split || !this->is_between(row, "contact_pointx", "contact_pointy", "contact_pointz");
+    };
+    return !this->has("contact_pointx") || !this->has("contact_pointz") || !this->has("x1") ||
+      !this->all_rows(is_apart) || whole == 0;
+  }
+
+  /// The column that the preset gives that name.
+  std::size_t place_of(std::string_view name) const
+  {
+    return columns_[static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin())];
   }
 
   bool ends_differ() const
@@ -90,23 +122,9 @@ public:
   bool forces_are_no_points() const
   {
     constexpr std::size_t least_rows = 3;
-    const auto is_between = [this](std::size_t row)
-    {
-      const Vector3 force = this->vector(row, "forcex", "forcey", "forcez");
-      const Vector3 first = this->place(row, 1);
-      const Vector3 second = this->place(row, 2);
-      double length = 0;
-      double apart = 0; // from the middle
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        const double middle = first[axis] + (second[axis] - first[axis]) / 2;
-        length += (second[axis] - first[axis]) * (second[axis] - first[axis]);
-        apart += (force[axis] - middle) * (force[axis] - middle);
-      }
-      return 4 * apart <= length;
-    };
     return !this->has("forcex") || !this->has("x1") || sample_.rows < least_rows ||
-      !this->all_rows(is_between);
+      !this->all_rows(
+        [this](std::size_t row) { return this->is_between(row, "forcex", "forcey", "forcez"); });
   }
 
   bool flags_fit() const
@@ -171,8 +189,24 @@ private:
 
   double value(std::size_t row, std::string_view name) const
   {
-    const auto at = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
-    return sample_.values[row * all_ + columns_[at]];
+    return sample_.values[row * all_ + this->place_of(name)];
+  }
+
+  /// Returns true if a point is in the sphere around the middle that both ends lie on.
+  bool is_between(std::size_t row, std::string_view x, std::string_view y, std::string_view z) const
+  {
+    const Vector3 point = this->vector(row, x, y, z);
+    const Vector3 first = this->place(row, 1);
+    const Vector3 second = this->place(row, 2);
+    double length = 0;
+    double apart = 0; // from the middle
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double middle = first[axis] + (second[axis] - first[axis]) / 2;
+      length += (second[axis] - first[axis]) * (second[axis] - first[axis]);
+      apart += (point[axis] - middle) * (point[axis] - middle);
+    }
+    return 4 * apart <= length;
   }
 
   Vector3 vector(std::size_t row, std::string_view x, std::string_view y, std::string_view z) const
@@ -207,7 +241,30 @@ bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::
   const LocalSample& sample)
 {
   const PresetRows rows(preset, columns, all, sample);
-  return rows.keep_rules() && rows.ends_differ() && rows.few_types() &&
+  return rows.broken_rule().text.empty() && rows.ends_differ() && rows.few_types() &&
     rows.forces_are_no_points() && rows.flags_fit() && rows.places_fit();
+}
+
+void check_history(const std::vector<std::string>& columns, const std::vector<std::string>& names,
+  const LocalSample& sample)
+{
+  const std::string all = join_words(names);
+  std::vector<std::size_t> places(names.size());
+  std::iota(places.begin(), places.end(), std::size_t{ 0 });
+  const PresetRows rows({ {}, all }, places, places.size(), sample);
+  Contradiction found = rows.broken_rule();
+  if (found.text.empty() && !rows.contact_points_fit())
+  {
+    found = { rows.place_of("contact_pointx"), "points between the ends, got none" };
+  }
+  if (!found.text.empty())
+  {
+    const auto left = std::ranges::count_if(
+      names, [](const std::string& name) { return name.starts_with("history"); });
+    throw FormatError("expected " + found.text + ", in the column " + columns[found.column] +
+      " that is taken for " + names[found.column] +
+      ": history in ColumnMap stands for the columns that are left, here " + std::to_string(left) +
+      "; the last columns of the compute may not be in the file");
+  }
 }
 }
