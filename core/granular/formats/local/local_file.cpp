@@ -37,17 +37,6 @@ bool is_headless(const FrameEntry& entry)
   return entry.kind->layout == FrameKind::bare && entry.offset == 0;
 }
 
-/// As many columns as the first row has words, whose names are in the header of another file.
-ColumnSchema unnamed_columns(std::string_view first_row, const Where& where)
-{
-  std::vector<std::string> names;
-  for (std::size_t i = 1; i <= split_words(first_row).size(); ++i)
-  {
-    names.push_back("column" + std::to_string(i));
-  }
-  return ColumnSchema(names, known_columns(), where);
-}
-
 void index_bare(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
@@ -67,7 +56,8 @@ void index_bare(
     {
       if (has_words(line))
       {
-        kind.schema = unnamed_columns(line, scanner.where());
+        kind.schema = ColumnSchema(
+          numbered_columns(split_words(line).size()), known_columns(), scanner.where());
         scanner.put_back();
         break;
       }

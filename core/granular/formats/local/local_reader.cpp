@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/local/local_reader.h"
 
+#include "granular/formats/dump/grammar/text_dump.h"
 #include "granular/lines/line_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/trade.h"
@@ -226,11 +227,7 @@ LocalSample read_sample(const RunIndex& index, const FrameKind& kind, Progress& 
   }
   Request request;
   request.points = false;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < kind.schema.columns().size(); ++i)
-  {
-    names.push_back("column" + std::to_string(i));
-  }
+  const std::vector<std::string> names = numbered_columns(kind.schema.columns().size());
   request.schema = ColumnSchema(names);
   request.pieces = static_cast<int>((rows + most_rows - 1) / most_rows);
   const DumpPart part = decode_dump(index.pieces(best), request, false, progress);

@@ -33,13 +33,14 @@ bool is_number(std::string_view word)
 }
 
 /// The schema of a frame, from its names and its first row: a column that the table does not know
-/// holds texts if the first one is no number.
+/// holds texts if the first one is no number. counted: the rows.
 ColumnSchema make_schema(std::vector<std::string> names,
-  const std::vector<std::string_view>& first_row, const Where& where)
+  const std::vector<std::string_view>& first_row, const std::string& counted, const Where& where)
 {
   if (names.empty())
   {
-    names = unnamed_columns(first_row.size(), where);
+    names = counted == "ATOMS" ? unnamed_columns(first_row.size(), where)
+                               : numbered_columns(first_row.size());
   }
   ColumnSchema schema(names, known_columns(), where);
   std::vector<ColumnSchema::TypeChange> texts;
@@ -54,7 +55,7 @@ ColumnSchema make_schema(std::vector<std::string> names,
   return schema;
 }
 
-/// Returns true if make_schema would give that schema.
+/// Returns true if make_schema would give that schema; false where rows have columns without names.
 bool makes_schema(const std::vector<std::string>& names,
   const std::vector<std::string_view>& first_row, const ColumnSchema& schema)
 {
@@ -68,7 +69,7 @@ bool makes_schema(const std::vector<std::string>& names,
       return false;
     }
   }
-  return names.size() == columns.size();
+  return names.size() == columns.size() && (!names.empty() || first_row.empty());
 }
 
 /// Takes the words of the first row, if there is one. They stay until the scanner moves on.
@@ -197,8 +198,9 @@ private:
     if (!kind_ || kind_->layout != FrameKind::text || kind_->units != units ||
       !makes_schema(names, first_row_, kind_->schema))
     {
-      kind_ = index_.kinds->share(
-        { make_schema(names, first_row_, { source_.path(), line_of_names }), units });
+      kind_ = index_.kinds->share({ make_schema(names, first_row_, reader_.header().counted,
+                                      { source_.path(), line_of_names }),
+        units });
     }
     if (found)
     {
@@ -338,6 +340,16 @@ bool is_text_dump(std::string_view first_bytes)
   return rows == RowsOf::Particles || rows == RowsOf::Any;
 }
 
+std::vector<std::string> numbered_columns(std::size_t count)
+{
+  std::vector<std::string> names;
+  while (names.size() < count)
+  {
+    names.push_back("column" + std::to_string(names.size() + 1));
+  }
+  return names;
+}
+
 bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnSchema& schema)
 {
   const std::vector<std::string>& names = header.column_names();
@@ -349,7 +361,8 @@ bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnS
   }
   try
   {
-    return make_schema(names, first_row, {}) == schema; // names that no header gives
+    // names that no header gives
+    return make_schema(names, first_row, header.header().counted, {}) == schema;
   }
   catch (const FormatError&)
   {

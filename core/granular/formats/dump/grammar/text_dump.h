@@ -8,7 +8,9 @@
 #include "granular/frames/file_index.h"
 #include "granular/text/text_scanner.h"
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +22,9 @@ std::optional<RowsOf> tell_rows(std::string_view first_bytes);
 
 /// Returns true if a file begins like a text dump of particles, or like one whose rows the bytes do not tell.
 bool is_text_dump(std::string_view first_bytes);
+
+/// Returns names for columns that are not named: column1, column2 and so on.
+std::vector<std::string> numbered_columns(std::size_t count);
 
 /// Returns true if the names in a header and the words of the first row, which the scanner is at, make these columns.
 bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnSchema& schema);

@@ -165,6 +165,10 @@ bool TextReader::more() const noexcept
 
 std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
 {
+  if (this->columns() == 0) // of an empty frame that names none
+  {
+    return 0;
+  }
   const char* const last = buffer_.data() + end_;
   const RowResult result =
     decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows, memory_);

@@ -114,7 +114,9 @@ void widen(const Misfits& misfits, const FrameKind& kind, ColumnSchema& schema, 
 ColumnSchema join_schemas(const FramePieces& pieces, const Request& request)
 {
   const FrameEntry& first = pieces.front().entry;
-  if (request.schema && request.schema->columns().size() != first.kind->schema.columns().size())
+  const bool is_open = first.rows == 0 && first.kind->schema.columns().empty(); // names nothing
+  if (request.schema && !is_open &&
+    request.schema->columns().size() != first.kind->schema.columns().size())
   {
     throw FormatError("expected " + std::to_string(request.schema->columns().size()) +
         " columns, got " + std::to_string(first.kind->schema.columns().size()) + ": " +
