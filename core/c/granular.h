@@ -129,7 +129,7 @@ typedef struct granular_open_options
   const char* column_names;
   /* order of the columns of contacts and bonds, by its name */
   const char* preset;
-  /* names of the columns of contacts and bonds, one for each column */
+  /* names of the columns of contacts and bonds, one for each column; files without a header need it */
   const char* column_map;
   /* atom style of data files that do not name it: "sphere", "hybrid sphere bond" */
   const char* atom_style;

@@ -23,13 +23,13 @@ using namespace granular;
 
 namespace
 {
-const Kind& choose_kind(granular_kind wanted, const std::string& path)
+const Kind& choose_kind(const granular_open_options& options, const std::string& path)
 {
-  if (wanted != GRANULAR_KIND_AUTOMATIC)
+  if (options.kind != GRANULAR_KIND_AUTOMATIC)
   {
-    return kind_of_number(wanted);
+    return kind_of_number(options.kind);
   }
-  const Kind* const found = find_kind(path);
+  const Kind* const found = find_kind(path, text_of(options.column_map));
   return found == nullptr ? dump_kind : *found; // whose error says what was expected
 }
 
@@ -209,7 +209,7 @@ granular_run::granular_run(std::vector<std::string> patterns, const granular_ope
     [&]
     {
       run_ = Run(kind_of_first(*ranks_,
-        [&]() -> const Kind& { return choose_kind(options.kind, find_files(patterns_).front()); }));
+        [&]() -> const Kind& { return choose_kind(options, find_files(patterns_).front()); }));
       if (!(timestep_size_ > 0) || !std::isfinite(timestep_size_))
       {
         throw ArgumentError(

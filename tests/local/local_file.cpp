@@ -49,7 +49,63 @@ TEST(LocalFile, PiecesBelongToTheFileWithZero)
     files[2] +
       ": expected a header, or rows of one timestep of which the file with 0 in its name has the "
       "header, got rows alone; they are left out, and so is what they belong to. A name with % and "
-      "* gives each timestep its own files");
+      "* gives each timestep its own files; ColumnMap makes rows of any timesteps one frame");
+}
+
+// dump_modify header no: rows of bonds that broke, whose first column is the timestep.
+TEST(LocalFile, RowsAloneAreAFrameWhereTheirColumnsAreNamed)
+{
+  const std::string rows = "276 5469 5471 \n288 1815 1931 \n290 1810 1815 \n293 1815 1816 \n";
+  const std::string path = write_text("broken.txt", rows);
+  LocalRun run;
+  run.update({ path }, { "time", "id1", "id2" });
+  EXPECT_EQ(run.said(),
+    path +
+      ": the rows have no header: they are one frame, of whatever timesteps they are, without a "
+      "box\n");
+  ASSERT_EQ(run.size(), 1u);
+  EXPECT_EQ(run.columns(), (std::vector<std::string>{ "column1", "column2", "column3" }));
+  const granular::Table frame = run.read(0, {}, { "time", "id1", "id2" });
+  EXPECT_EQ(frame.header.counted, "ENTRIES");
+  EXPECT_FALSE(frame.header.has_box);
+  const auto ids = values<std::int64_t>(frame, "id2");
+  EXPECT_EQ(
+    std::vector(ids.begin(), ids.end()), (std::vector<std::int64_t>{ 5471, 1931, 1815, 1816 }));
+  write_text("broken.txt", rows + "301 1 2 \n");
+  run.update({ path }, { "time", "id1", "id2" });
+  EXPECT_EQ(run.read(0, {}, { "time", "id1", "id2" }).rows, 5);
+  EXPECT_NE(error_of([&] { run.update({ path }); }), "") << "named no more";
+  run.update({ write_text("bonds_20.txt", "1 2 \n"), write_text("bonds_5.txt", "1 2 \n3 4 \n") },
+    { "id1", "id2" });
+  ASSERT_EQ(run.size(), 2u);
+  EXPECT_EQ(run.step(0), 5);
+  EXPECT_EQ(run.read(0, {}, { "id1", "id2" }).rows, 2);
+  // pieces are no frames of their own
+  LocalRun pieces;
+  pieces.update(piece_files("3000"), { "pos", "id", "force" });
+  EXPECT_EQ(pieces.size(), 1u);
+  EXPECT_EQ(pieces.read(0).rows, LocalRun(piece_files("3000")).read(0).rows);
+}
+
+// Old programs name no columns, and an empty frame does not even tell their number.
+TEST(LocalFile, HeadersWithoutNames)
+{
+  const std::string path = write_text("old.dump",
+    local_frame("", {}, "") + local_frame("", { "1 1 5 10", "2 1 11 45" }, "", "ENTRIES", 100));
+  LocalRun run({ path });
+  ASSERT_EQ(run.size(), 2u);
+  EXPECT_EQ(run.found(1), "column1 column2 column3 column4");
+  const std::string map = "bond_id btype id1 id2";
+  for (const std::size_t frame : { std::size_t{ 0 }, std::size_t{ 1 } })
+  {
+    const std::vector<std::string> names = granular::name_columns(run.columns(frame), map);
+    EXPECT_EQ(granular::join_words(names), map);
+    const granular::Table table = run.read(frame, {}, names);
+    EXPECT_EQ(table.arrays.size(), 4u);
+    EXPECT_EQ(values<std::int64_t>(table, "id2").size(), 2 * frame);
+  }
+  EXPECT_EQ(granular::join_words(granular::name_columns({}, granular::local_presets()[0])),
+    "id1 id2 btype");
 }
 
 // Rows of several timesteps, one behind the other, cannot be told apart.

@@ -46,10 +46,13 @@ public:
   LocalRun() = default;
   explicit LocalRun(const std::vector<std::string>& paths) { this->update(paths); }
 
-  void update(const std::vector<std::string>& paths)
+  /// column_names: of the user's column map.
+  void update(
+    const std::vector<std::string>& paths, const std::vector<std::string>& column_names = {})
   {
     granular::IndexOptions options;
     options.format = &granular::local_format();
+    options.column_names = column_names;
     granular::Progress progress;
     notices_.clear();
     index_.update(paths, options, notices_, progress);

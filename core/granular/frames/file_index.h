@@ -43,7 +43,7 @@ struct FileIndex
   std::optional<Notice> defect; ///< error of the first frame that was left out or is missing
   std::string unchecked;        ///< see ByteSource::unchecked
   std::exception_ptr error;     ///< the file could not be opened or read
-  bool unnamed = false;         ///< binary, without the names of its columns
+  bool unnamed = false;         ///< binary or rows alone, without the names of its columns
   bool compressed = false;      ///< gzip or Zstandard
   std::vector<std::string> column_names; ///< of the user, for such a file
   std::shared_ptr<SeekPoints> points;    ///< of a compressed file

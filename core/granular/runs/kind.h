@@ -35,7 +35,7 @@ struct RunOptions
   std::string
     column_names; ///< dumps: columns of binary files that do not name them; blanks or commas between
   std::string preset;     ///< local: of local_presets, AsNamed, or Automatic as when it is empty
-  std::string column_map; ///< local: see name_columns
+  std::string column_map; ///< local: see name_columns; files of rows alone need it
   std::string atom_style; ///< data files: see find_data_columns
   std::string boundary;   ///< data files: see DataOptions
   int history_layout = automatic_history; ///< restart files: see make_bond_schema
@@ -159,8 +159,8 @@ extern const Kind grid_kind;
 /// Returns all kinds, in the order in which they are asked whether a file is theirs.
 std::span<const Kind* const> kinds() noexcept;
 
-/// Returns the kind of a file by its contents, or null.
-const Kind* find_kind(const std::string& path) noexcept;
+/// Returns the kind of a file by its contents, or null. A file without a header is local data if a column map names lines.
+const Kind* find_kind(const std::string& path, const std::string& column_map = {});
 
 /// Returns the kind with a number. Throws ArgumentError.
 const Kind& kind_of_number(std::int64_t number);

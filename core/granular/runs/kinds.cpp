@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/runs/kind.h"
 
+#include "granular/formats/local/local_presets.h"
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -43,11 +45,11 @@ std::span<const Kind* const> kinds() noexcept
   return all;
 }
 
-const Kind* find_kind(const std::string& path) noexcept
+const Kind* find_kind(const std::string& path, const std::string& column_map)
 {
   const auto found =
     std::ranges::find_if(kinds(), [&](const Kind* kind) { return kind->is_file(path); });
-  return found == kinds().end() ? nullptr : *found;
+  return found != kinds().end() ? *found : maps_lines(column_map) ? &local_kind : nullptr;
 }
 
 const Kind& kind_of_number(std::int64_t number)

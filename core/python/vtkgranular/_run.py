@@ -873,7 +873,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     dt              time of one timestep, greater than 0, in the unit of the run; by default 1, unless the files hold times
     column_names    columns of binary dumps that do not name them: "id type x y z vx vy vz"; or a list
     preset          order of the columns of contacts and bonds, by its name
-    column_map      names of the columns of contacts and bonds, one for each column; or a list
+    column_map      names of the columns of contacts and bonds, one for each column; files without a header need it; or a list
     atom_style      atom style of data files that do not name it: "sphere", "hybrid sphere bond"
     boundary        boundaries of the box in data files, which do not hold them: "p p f"; empty: axes that particles have crossed
                     are periodic

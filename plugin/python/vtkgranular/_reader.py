@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numbers
 import os
+import warnings
 from typing import Any, Iterable
 
 from ._errors import expect_utf8, raised
@@ -11,6 +12,7 @@ from ._files import files
 from ._library import shown
 from ._options import READERS
 from ._plugin import expect_plugin, has_plugin
+from ._run import open as open_run
 
 
 def _names(paths: Iterable[str], remote: bool) -> list[str]:
@@ -30,8 +32,8 @@ def _names(paths: Iterable[str], remote: bool) -> list[str]:
     return [expect_utf8(name) for name in names]
 
 
-def _find_reader(name: str) -> str:
-    """The reader that recognises a file by its first bytes."""
+def _find_reader(name: str, column_map: Any) -> str:
+    """The reader that recognises a file by its first bytes, or, where it has no header, by the names of its columns."""
     from paraview import servermanager
 
     for reader in READERS:
@@ -39,6 +41,11 @@ def _find_reader(name: str) -> str:
         proxy = getattr(servermanager.sources, reader)(no_update=True)
         if servermanager.vtkSMReaderFactory.CanReadFile(name, proxy.SMProxy):
             return reader
+    if column_map and os.path.exists(name):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the reader says the same
+            if open_run(name, column_map=column_map).kind == "local":
+                return "GranularLocalReader"
     return READERS[0]  # which says what it expected
 
 
@@ -65,7 +72,7 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else paths
     connection = servermanager.ActiveConnection
     names = _names([os.fsdecode(path) for path in given], connection is not None and connection.IsRemote())
-    kind = _find_reader(names[0])
+    kind = _find_reader(names[0], properties.get("ColumnMap"))
     if kind == "GranularRestartReader" and len(names) > 1:
         bases = [name for name in names if "base" in os.path.basename(name)]
         names = bases or names  # the files of the other ranks are found beside them

@@ -64,6 +64,7 @@ void index_bare(
     }
     entry.line = 1;
     entry.kind = index.kinds->share(std::move(kind));
+    index.unnamed = true;
   }
   entry.rows += scanner.skip_to_item(progress);
   entry.end = scanner.offset();
@@ -173,7 +174,7 @@ std::string why_left_out(std::size_t columns, std::size_t wanted)
   }
   return "expected a header, or rows of one timestep of which the file with 0 in its name has the "
          "header, got rows alone; they are left out, and so is what they belong to. A name with % "
-         "and * gives each timestep its own files";
+         "and * gives each timestep its own files; ColumnMap makes rows of any timesteps one frame";
 }
 
 /// Returns true if the file of the next process, which would have 1 where this has 0 in its name, lies beside it, and has rows without a
@@ -221,6 +222,21 @@ void note_siblings(const std::vector<FileIndex>& files, Notices& notices)
   }
 }
 
+/// Makes each file a frame, whose columns the user has named. Its name may tell the timestep.
+void make_frames(std::vector<FileIndex>& files, Notices& notices)
+{
+  for (const FileIndex& file : files)
+  {
+    notices.push_back({ { file.path },
+      "the rows have no header: they are one frame, of whatever timesteps they are, without a "
+      "box" });
+  }
+  if (files.size() > 1)
+  {
+    name_steps(files, notices);
+  }
+}
+
 /// Gives the files of rows that `%` makes what the file with the header says, and leaves out the others; so are frames that lack
 /// their rows.
 void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
@@ -228,6 +244,11 @@ void complete_pieces(std::vector<FileIndex>& files, Notices& notices)
   std::set<std::uint32_t> adopted;
   std::set<std::uint32_t> incomplete;
   std::map<std::uint32_t, std::size_t> wanted; ///< columns, of files that have others
+  if (std::ranges::all_of(files,
+        [](const FileIndex& file) { return is_headless(file) && !file.column_names.empty(); }))
+  {
+    return make_frames(files, notices);
+  }
   note_siblings(files, notices);
   for_each_group(files,
     [&](std::uint32_t head, const Group& group)

@@ -267,6 +267,8 @@ Table read_local(const std::vector<FramePiece>& pieces, const std::vector<std::s
       forward.set_part(0, 0.8);
       Table frame = read_dump(pieces, table, ranks, notices, forward);
       frame.has_lines = has_ends(schema);
+      const bool is_bare = piece.entry.kind->layout == FrameKind::bare; // no header says it
+      frame.header.counted = is_bare ? "ENTRIES" : frame.header.counted;
       check_flags(find_array(frame, "periodic"), where);
       forward.set_part(0.8, 0.9);
       if (frame.has_lines && request.periodic_lines == PeriodicLines::Split && ranks.size() == 1)

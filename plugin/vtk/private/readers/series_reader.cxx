@@ -56,7 +56,8 @@ void vtkGranularSeriesReader::Internals::Update()
   }
   if (this->Valid && !this->Stale && this->IndexedNames == this->FileNames &&
     this->Run.options().repeated_steps == options.repeated_steps &&
-    this->Run.options().column_names == options.column_names)
+    this->Run.options().column_names == options.column_names &&
+    this->Run.options().column_map == options.column_map)
   {
     this->Run.set_options(options);
     return;
