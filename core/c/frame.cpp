@@ -397,8 +397,11 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
   {
     arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),
       find_known("x1", known) });
-    arrays.push_back(
-      { "length", ValueType::Float64, 1, table.lines.lengths.data(), find_known("length", known) });
+    if (table.schema.find_array("length") < 0) // that of the file
+    {
+      arrays.push_back({ "length", ValueType::Float64, 1, table.lines.lengths.data(),
+        find_known("length", known) });
+    }
   }
   for (std::int64_t line = 0; split && line < table.lines.count; ++line)
   {

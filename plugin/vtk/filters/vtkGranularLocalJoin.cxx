@@ -311,8 +311,8 @@ private:
     {
       AddParts(this->Output, this->Lines, this->FirstRow, this->Joined.rows);
     }
-    FillLines(this->Output, this->Lines, nullptr);
     this->FillFields(this->Output->GetFieldData());
+    FillLines(this->Output, this->Lines, nullptr);
   }
 
   void FillFields(vtkFieldData* fields) const

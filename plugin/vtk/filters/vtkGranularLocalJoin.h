@@ -10,7 +10,7 @@
  * duplicates are left out.
  *
  * Cell arrays, besides those of the rows:
- * - `length` of the whole line, of its shortest image except with AS_WRITTEN [m]
+ * - `length` of the whole line, of its shortest image except with AS_WRITTEN [m]; `length_2` if the rows' file has a column `length`
  * - `elongation` = length - l0 [m] and `strain` = elongation / l0 [-], if the equilibrium length l0 is known; nan where it is 0
  * - `A_mean`, `A_difference`: mean and difference of the array A at both ends (second minus first), see SetAverages
  * - `row` and `part`, only with SPLIT: the number of the row, from 0, and the number of the part, 0 at the first end

@@ -12,11 +12,11 @@
  * SetPreset and SetColumnMap define the meaning of the columns, which become arrays of the cells and of the table:
  * - `id1` and `id2`, the particles at the ends, are vtkTypeInt64Array; `btype` and `periodic` are vtkTypeInt32Array; others are double;
  * - three columns x, y, z of a vector become one array: `force`, `torque`, `v1` and so on;
- * - `length` is the length of the drawn line, over all its parts if it is split;
+ * - `length` is the length of the drawn line, over all its parts if it is split, or `length_2` if the file has a column `length`;
  * - `position1` and `position2` are the ends as the file has them; unlike the other arrays, they are off by default;
  * - `row` and `part`, if lines are split: the number of the row in the frame, from 0 (vtkTypeInt64Array), and the number of the part,
  *   0 at the first end (vtkTypeInt32Array);
- * - columns of the file that are named `length`, `row` or `part` become `length_2` and so on.
+ * - columns of the file that are named `row` or `part` become `row_2` and `part_2` then.
  *
  * Both outputs carry the field data of vtkGranularDumpReader: PointOrigin, Columns, timestep, and the box if the file has one. A
  * pipeline may ask for any piece of any number. The pieces hold each row once.

@@ -140,7 +140,7 @@ private:
     }
     if (!made)
     {
-      this->LeaveOutMade();
+      this->LeaveOutMade(LengthName(lines->GetFieldData()));
     }
     this->AddEnds(lines, rows);
   }
@@ -148,12 +148,12 @@ private:
   /**
  * Unless they are columns of the file that the lines are from.
  */
-  void LeaveOutMade()
+  void LeaveOutMade(const std::string& length)
   {
     std::erase_if(this->View.arrays,
       [&](const granular::ArrayView& array)
       {
-        return (array.name == "length" || array.name == RowArray || array.name == PartArray) &&
+        return (array.name == length || array.name == RowArray || array.name == PartArray) &&
           std::ranges::find(this->View.columns, array.name) == this->View.columns.end();
       });
   }

@@ -8,10 +8,12 @@
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
@@ -23,6 +25,17 @@
 
 namespace vtkGranularPrivate
 {
+std::string LengthName(vtkFieldData* fields)
+{
+  auto* columns = vtkStringArray::SafeDownCast(fields->GetAbstractArray("Columns"));
+  std::string name = "length";
+  for (int number = 2; columns && columns->LookupValue(name) >= 0; ++number)
+  {
+    name = "length_" + std::to_string(number);
+  }
+  return name;
+}
+
 void FillRows(vtkTable* rows, granular::Table& frame)
 {
   const auto count = static_cast<vtkIdType>(frame.rows);
@@ -53,7 +66,8 @@ void FillLines(
   output->SetPoints(TakePoints(lines.points, 2 * count, false, {}));
   output->SetLines(MakeCells(count, 2, pool));
   const auto rows = static_cast<vtkIdType>(lines.lengths.bytes() / sizeof(double));
-  const auto lengths = TakeDoubles(LengthArray, lines.lengths, rows, 1);
+  const std::string name = LengthName(output->GetFieldData());
+  const auto lengths = TakeDoubles(name.c_str(), lines.lengths, rows, 1);
   output->GetCellData()->AddArray(TakeRows(lengths, lines));
 }
 
@@ -85,10 +99,10 @@ void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, 
       AddNew(data, TakeRows(rows->GetColumn(i), lines));
     }
   }
-  for (const char* const own : { LengthArray, RowArray, PartArray })
+  for (const char* const own : { RowArray, PartArray })
   {
     vtkSmartPointer<vtkAbstractArray> array = data->GetAbstractArray(own);
-    if (!array || (own != LengthArray && !split))
+    if (!array || !split)
     {
       continue;
     }

@@ -10,9 +10,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 class vtkAbstractArray;
+class vtkFieldData;
 class vtkPolyData;
 class vtkTable;
 
@@ -21,9 +23,14 @@ namespace vtkGranularPrivate
 /**
  * Names of the arrays that lines get.
  */
-constexpr const char* LengthArray = "length";
 constexpr const char* RowArray = "row";
 constexpr const char* PartArray = "part";
+
+/**
+ * Returns the name of the array with the lengths of lines, `length`, or `length_2` and so on if the field data Columns has
+ * that.
+ */
+std::string LengthName(vtkFieldData* fields);
 
 /**
  * Fills the table with the rows of a frame of local data. Takes over their memory.
@@ -37,7 +44,8 @@ void FillLines(vtkPolyData* output, vtkTable* rows, granular::Table& frame,
   const granular::Request& request, const granular::Where& where, granular::Notices& notices);
 
 /**
- * Fills the output with lines, two points each, and the cell array `length`. Takes over the memory of the lines.
+ * Fills the output, whose field data are there, with lines, two points each, and the cell array LengthName. Takes over the memory of
+ * the lines.
  */
 void FillLines(
   vtkPolyData* output, granular::Lines& lines, const std::shared_ptr<granular::BlockPool>& pool);
@@ -49,8 +57,8 @@ void FillLines(
 vtkSmartPointer<vtkAbstractArray> TakeRows(vtkAbstractArray* array, const granular::Lines& lines);
 
 /**
- * Adds the values of a table's rows to lines. An array with a name that lines use, also `row` and `part` if they are
- * split, becomes `length_2` and so on, with a notice.
+ * Adds the values of a table's rows to lines. If the lines are split, arrays `row` and `part` become `row_2` and so on, with
+ * a notice.
  */
 void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, bool split,
   const granular::Where& where, granular::Notices& notices);

@@ -255,12 +255,12 @@ void vtkGranularSeriesReader::Internals::FillLines(
   auto* lines = vtkPolyData::GetData(shown.Outputs, 0);
   auto* rows = vtkTable::GetData(shown.Outputs, 1);
   FillRows(rows, frame.rows);
+  FillFieldData(lines->GetFieldData(), frame.rows, request.point_origin);
+  FillFieldData(rows->GetFieldData(), frame.rows, request.point_origin);
   if (frame.rows.has_lines)
   {
     vtkGranularPrivate::FillLines(lines, rows, frame.rows, request, shown.Where, shown.Notices);
   }
-  FillFieldData(lines->GetFieldData(), frame.rows, request.point_origin);
-  FillFieldData(rows->GetFieldData(), frame.rows, request.point_origin);
 }
 
 //------------------------------------------------------------------------------
@@ -285,8 +285,8 @@ void vtkGranularSeriesReader::Internals::FillParticles(
     auto* lines = vtkPolyData::GetData(shown.Outputs, 1);
     vtkNew<vtkTable> bonds;
     FillRows(bonds, frame.bonds);
-    vtkGranularPrivate::FillLines(lines, bonds, frame.bonds, request, shown.Where, shown.Notices);
     FillFieldData(lines->GetFieldData(), frame.bonds, request.point_origin);
+    vtkGranularPrivate::FillLines(lines, bonds, frame.bonds, request, shown.Where, shown.Notices);
   }
   if (!frame.groups.empty())
   {
