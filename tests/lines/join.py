@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The bonds of a real run, between the particles of its dump: as long as the program that wrote them says."""
 import os
+import re
 
 import numpy
 from paraview.simple import *
@@ -101,6 +102,32 @@ for step, table in bonds.items():
         assert (vtk_to_numpy(output.GetCellData().GetArray(name)) == table[:, place]).all(), name
     assert output.GetFieldData().GetArray("timestep").GetValue(0) == step
     assert abs(vtk_to_numpy(output.GetCellData().GetArray("length")) - table[:, 3]).max() < 3e-4
+
+# one clock: of two files one has ITEM: TIME, so the same timesteps have other times; a column `length` is that of the file
+def timed(name, has_time):
+    with open(os.path.join(data, "local", name)) as file:
+        text = file.read()
+    with open(name, "w") as file:
+        file.write(re.sub(r"ITEM: TIMESTEP\n(\d+)", lambda match: f"ITEM: TIME\n{int(match[1]) * 0.005}\n{match[0]}", text)
+                   if has_time else text)
+    return os.path.abspath(name)
+
+
+for with_time in ("chain.dump", "chain_bonds.dump"):
+    beads = GranularDumpReader(FileNames=[timed("chain.dump", with_time == "chain.dump")])
+    read = GranularLocalReader(FileNames=[timed("chain_bonds.dump", with_time != "chain.dump")],
+                               ColumnMap="btype id1 id2 length engpot forcex forcey forcez")
+    lines = GranularLocalJoin(Input=beads, Lines=OutputPort(read, 1))
+    assert list(beads.TimestepValues) != list(read.TimestepValues)
+    for time, (step, table) in zip(beads.TimestepValues, bonds.items()):
+        lines.UpdatePipeline(time)
+        output = lines.GetClientSideObject().GetOutput()
+        assert output.GetFieldData().GetArray("timestep").GetValue(0) == step
+        cells = {name: vtk_to_numpy(output.GetCellData().GetArray(name)) for name in ("id1", "length", "length_2")}
+        assert (cells["id1"] == table[:, 1]).all() and (cells["length"] == table[:, 3]).all(), (with_time, step)
+        assert abs(cells["length_2"] - table[:, 3]).max() < 3e-4, (with_time, step)
+        read.UpdatePipeline(time)  # which the filter leaves as it was
+        assert list(read.TimestepValues)[1:] == ([500, 1000] if with_time == "chain.dump" else [2.5, 5])
 
 # contacts of LIGGGHTS, which have their places, too: there the particles are, whether the reader split the lines or not
 all_particles = GranularDumpReader(FileNames=[os.path.join(data, "grains.dump")])

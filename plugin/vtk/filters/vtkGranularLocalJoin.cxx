@@ -106,7 +106,9 @@ private:
 
   void ReadRows()
   {
-    this->Rows.emplace(this->GetInput(1));
+    this->RowData = RowsOfTimestep(
+      this->Self, 1, this->GetInput(0), PieceOfInput(this->Wanted, this->Ranks), this->Ranks);
+    this->Rows.emplace(this->RowData);
     if (!this->Together)
     {
       const auto range = this->RangeOf(this->Rows->Count());
@@ -360,6 +362,7 @@ private:
 
   vtkPolyData* const Output = this->GetOutput<vtkPolyData>();
   std::optional<Particles> Input;
+  vtkSmartPointer<vtkDataObject> RowData; ///< of the timestep of the particles
   std::optional<LocalRows> Rows;
   std::int64_t FirstRow = 0; ///< of these, among all
   granular::JoinedLines Joined;

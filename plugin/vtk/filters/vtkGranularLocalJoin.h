@@ -21,6 +21,9 @@
  * points they go to the nearest image of the other end; lengths are never scaled. The box is that of the particles' field data, or of
  * the rows' if the particles have none. The field data are those of the particles, with the Columns of the rows.
  *
+ * Rows of many times are those with the timestep of the particles, or the last before it, even where the rows' file gives timesteps
+ * other times than that of the particles (ITEM: TIME).
+ *
  * Warnings also tell that the lines have no places (the rows are another output of the reader), how many lines differ from their array `dist`, and that the timesteps of both inputs differ, if the rows have
  * several times. A warning is repeated only after inputs or properties have changed, or when it came back.
  */

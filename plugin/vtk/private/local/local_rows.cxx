@@ -2,14 +2,17 @@
 #include "private/local/local_rows.h"
 
 #include "private/arrays/arrays.h"
+#include "private/dump/input_frames.h"
 #include "private/local/lines.h"
 
 #include "granular/common/error.h"
+#include "granular/frames/run_index.h"
 #include "granular/lines/fetch_particles.h"
 #include "granular/parallel/executor.h"
 #include "granular/particles/point_forms.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -37,6 +40,17 @@
 
 namespace vtkGranularPrivate
 {
+namespace
+{
+std::optional<std::int64_t> TimestepOf(vtkFieldData* data)
+{
+  vtkDataArray* timestep = data->GetArray("timestep");
+  return timestep && timestep->GetNumberOfValues() == 1
+    ? std::optional<std::int64_t>(timestep->GetVariantValue(0).ToTypeInt64())
+    : std::nullopt;
+}
+}
+
 void CheckLine(vtkDataSet* data, vtkIdType cell)
 {
   const int type = data->GetCellType(cell);
@@ -324,19 +338,57 @@ void LocalRows::PassTuples(vtkIdList* tuples, vtkDataSetAttributes* to) const
   }
 }
 
+vtkSmartPointer<vtkDataObject> RowsOfTimestep(vtkAlgorithm* consumer, int port,
+  vtkDataObject* particles, const PieceRequest& piece, granular::Communicator& ranks)
+{
+  constexpr int most = 3; // the first guess may have to do with a timestep of 0
+  vtkSmartPointer<vtkDataObject> best = consumer->GetInputDataObject(port, 0);
+  const auto wanted = TimestepOf(particles->GetFieldData());
+  auto there = TimestepOf(best->GetFieldData());
+  std::int64_t differ = wanted && there && *wanted != *there ? 1 : 0;
+  ranks.sum({ &differ, 1 });
+  if (differ < ranks.size())
+  {
+    return best;
+  }
+  InputFrames input(consumer, { piece.Piece, piece.Pieces, 0 }, port);
+  const std::vector<double> times = input.GetTimes();
+  for (int guess = 0; guess < most; ++guess)
+  {
+    const auto step = TimestepOf(input.GetData()->GetFieldData());
+    const std::optional<double> time = input.GetTime();
+    std::string next; // frame, as the first rank guesses
+    if (times.size() > 1 && step && time && *step != *wanted)
+    {
+      const double scale = *step == 0 ? 1 : *time / static_cast<double>(*step);
+      const std::size_t frame =
+        granular::RunIndex::find(times, static_cast<double>(*wanted) * scale);
+      next = times[frame] == *time ? next : std::to_string(frame);
+    }
+    ranks.broadcast(next, 0);
+    if (next.empty())
+    {
+      break;
+    }
+    input.Update(times[std::stoul(next)], ranks);
+    const auto found = TimestepOf(input.GetData()->GetFieldData());
+    if (found && *found <= *wanted && (*there > *wanted || *found > *there))
+    {
+      there = found;
+      best.TakeReference(input.GetData()->NewInstance());
+      best->ShallowCopy(input.GetData());
+    }
+  }
+  input.Restore(ranks);
+  return best;
+}
+
 std::string CompareTimesteps(vtkFieldData* particles, vtkFieldData* rows)
 {
-  const auto timestepOf = [](vtkFieldData* data)
-  {
-    vtkDataArray* timestep = data->GetArray("timestep");
-    return timestep && timestep->GetNumberOfValues() == 1
-      ? std::to_string(timestep->GetVariantValue(0).ToTypeInt64())
-      : std::string();
-  };
-  const std::string ofParticles = timestepOf(particles);
-  const std::string ofRows = timestepOf(rows);
-  return ofParticles.empty() || ofRows.empty() || ofParticles == ofRows
-    ? std::string()
-    : "the particles are of timestep " + ofParticles + ", the lines of " + ofRows;
+  const auto ofParticles = TimestepOf(particles);
+  const auto ofRows = TimestepOf(rows);
+  return !ofParticles || !ofRows || *ofParticles == *ofRows ? std::string()
+                                                            : "the particles are of timestep " +
+      std::to_string(*ofParticles) + ", the lines of " + std::to_string(*ofRows);
 }
 }

@@ -3,9 +3,12 @@
 #define vtkGranularLocalRows_h
 
 #include "private/arrays/array_views.h"
+#include "private/request/request_task.h"
 
 #include "granular/common/progress.h"
+#include "granular/parallel/communicator.h"
 
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
 #include <cstddef>
@@ -17,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+class vtkAlgorithm;
 class vtkDataObject;
 class vtkDataSet;
 class vtkDataSetAttributes;
@@ -137,6 +141,13 @@ private:
   bool AreAll = true;            ///< each is a row
   std::vector<vtkIdType> Tuples; ///< of the rows, where not all are
 };
+
+/**
+ * Returns the rows of an input of many times that have the timestep of the particles, or else the last one before it that is found. The
+ * rows of the shown time may have another one: a file with ITEM: TIME and a file without give a timestep different times. Collective.
+ */
+vtkSmartPointer<vtkDataObject> RowsOfTimestep(vtkAlgorithm* consumer, int port,
+  vtkDataObject* particles, const PieceRequest& piece, granular::Communicator& ranks);
 
 /**
  * Returns what to tell if the particles and the rows are of different timesteps; nothing if one of them does not say.
