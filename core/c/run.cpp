@@ -259,7 +259,15 @@ void granular_run::refresh(Caller& caller)
     times = std::move(new_times);
     left_out = std::move(new_left_out);
   }
-  caller.tell(notices, *ranks_);
+  caller.tell(this->news(std::move(notices), true), *ranks_);
+}
+
+Notices granular_run::news(Notices notices, bool of_files)
+{
+  const std::lock_guard guard(told_mutex_);
+  std::erase_if(notices,
+    [&](const Notice& notice) { return !told_.insert(subject_of(notice, of_files)).second; });
+  return notices;
 }
 
 std::size_t granular_run::number_of(std::int64_t frame) const
@@ -374,6 +382,6 @@ std::unique_ptr<granular_frame> granular_run::read(
   made->time = times[frame];
   made->where = where_of(this->index().first_piece(frame));
   made->index = shared_index;
-  caller.tell(notices, group);
+  caller.tell(this->news(std::move(notices), false), group);
   return made;
 }

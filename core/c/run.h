@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <shared_mutex>
 #include <string>
 #include <vector>
@@ -113,6 +114,9 @@ private:
   void expect_idle() const;
   void expect_table(int table) const;
 
+  /// Returns the notices whose subjects the caller has not heard of: see subject_of.
+  granular::Notices news(granular::Notices notices, bool of_files);
+
   std::unique_ptr<granular::Communicator> ranks_;
   granular::SerialCommunicator alone_;
   double timestep_size_;
@@ -121,5 +125,7 @@ private:
   std::vector<granular::OfferedArray> every_array_[2]; ///< of each table, as far as asked
   std::mutex refresh_mutex_;                           ///< locked first
   std::mutex offers_mutex_;
+  std::mutex told_mutex_;
+  std::set<std::string> told_;
 };
 #endif

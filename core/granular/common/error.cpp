@@ -102,4 +102,13 @@ std::string to_string(const Notice& notice)
 {
   return message(notice.text, notice.where);
 }
+
+std::string subject_of(const Notice& notice, bool of_files)
+{
+  const std::string about = of_files ? std::to_string(notice.where.line) : notice.where.column;
+  const std::string what = !notice.topic.empty() ? notice.topic
+    : of_files || about.empty()                  ? notice.text
+                                                 : "";
+  return notice.where.path + "\n" + about + "\n" + what;
+}
 }

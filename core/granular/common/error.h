@@ -121,5 +121,9 @@ using Notices = std::vector<Notice>;
 
 /// Returns "place: text".
 std::string to_string(const Notice& notice);
+
+/// Returns a text for each subject of notices, of which a user gets the first one. What is said of a column, or of all rows, holds
+/// for the next frames too. of_files: the notices are of files and the places of their frames, which are new for each line.
+std::string subject_of(const Notice& notice, bool of_files);
 }
 #endif

@@ -124,13 +124,7 @@ void vtkGranularSeriesReader::Internals::Tell(const granular::Notices& notices, 
   for (const granular::Notice& notice : notices)
   {
     const std::string& path = notice.where.path;
-    // what is said of a column, or of all rows, holds for the next frames too; what is said of
-    // frames is new for each
-    const std::string about = ofFrames ? std::to_string(notice.where.line) : notice.where.column;
-    const std::string what = !notice.topic.empty() ? notice.topic
-      : ofFrames || about.empty()                  ? notice.text
-                                                   : "";
-    if (this->Told.insert(path + "\n" + about + "\n" + what).second && ++counts[path] <= most)
+    if (this->Told.insert(granular::subject_of(notice, ofFrames)).second && ++counts[path] <= most)
     {
       std::string& joined = texts[path];
       joined += (joined.empty() ? "" : "\n") + granular::to_string(notice);
