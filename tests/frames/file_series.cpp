@@ -272,7 +272,7 @@ TEST(FileSeries, OneOfThreeFilesIsNoDump)
     { "", "" }, // its writer has opened it
     { unfinished(particles(100, { 2 })), "" },
     { "no dump\n",
-      ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'no dump'; the frame is left out\n" },
+      ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'no dump'; the file is left out\n" },
     { gz.substr(0, gz.size() / 2) + "damage" + gz.substr(gz.size() / 2), "left out\n" },
   };
   for (const Case& one : cases)

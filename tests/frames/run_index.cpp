@@ -245,7 +245,7 @@ TEST(RunIndex, AFileWithoutFramesAmongOthers)
   EXPECT_EQ(run.steps(), Steps{ 0 });
   EXPECT_EQ(run.said,
     folder.path("bad.dump") +
-      ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'not a dump'; the frame is left out\n");
+      ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'not a dump'; the file is left out\n");
 }
 
 TEST(RunIndex, AfterAnErrorItStartsOver)

@@ -110,19 +110,23 @@ private:
   bool next_frame()
   {
     reader_.restart(index_.units);
+    Notice why;
     try
     {
       return this->read_frame();
     }
     catch (const FormatError& error)
     {
-      this->leave_out(error.where(), error.text());
+      why = { error.where(), error.text() };
     }
     catch (const LimitError& error)
     {
-      this->leave_out(error.where(), error.text());
+      why = { error.where(), error.text() };
     }
-    return this->go_to_next_frame();
+    const bool more = this->go_to_next_frame();
+    const bool is_frame = more || reader_.opened() || !index_.frames.empty();
+    this->leave_out(why.where, why.text, is_frame ? "frame" : "file");
+    return more;
   }
 
   bool read_frame()
@@ -209,10 +213,10 @@ private:
     return kind_;
   }
 
-  void leave_out(const Where& where, const std::string& why)
+  void leave_out(const Where& where, const std::string& why, const char* what = "frame")
   {
     set_defect(index_, { where, why });
-    index_.notices.push_back({ where, why + "; the frame is left out" });
+    index_.notices.push_back({ where, why + "; the " + what + " is left out" });
   }
 
   bool go_to_next_frame()
