@@ -10,6 +10,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 from said import said_by
 
 import vtkgranular as vg
+from vtkgranular._reader import _find_reader
 
 data = os.path.join(os.environ["GRANULAR_DATA"], "good", "local")
 FORCE = ["x1", "y1", "z1", "x2", "y2", "z2", "id1", "id2", "periodic", "forcex", "forcey", "forcez"]
@@ -132,7 +133,11 @@ for words in ("pos vel id force torque delta", "delta torque force id vel pos"):
                           ("v2", slice(9, 12)), ("force", slice(15, 18)), ("torque", slice(18, 21)), ("delta", 21)):
         assert (contacts.column(name) == rows[:, columns]).all(), name
 contacts = Read(good("all.dump"))
-assert len(contacts.said) == 1 and "no preset has as many" in contacts.said[0] and "set Preset or ColumnMap" in contacts.said[0]
+assert len(contacts.said) == 1 and "no preset has as many" in contacts.said[0] and "lines name the particles in ColumnMap" in contacts.said[0]
+assert (contacts.column("c_fa") == rows).all()
+broken = Read(good("broken.txt"), ColumnMap="time id1 id2")  # rows alone, of which the names say whose they are
+assert _find_reader(good("broken.txt"), "time id1 id2") == "GranularLocalReader"
+assert len(broken.said) == 1 and "no header" in broken.said[0] and broken.column("id2").tolist() == [5471, 1931, 1815, 1816]
 label = Read(good("label.dump"), ColumnMap="id1=2 id2=3")
 assert label.said == [] and label.rows.GetNumberOfRows() == 32
 assert (label.column("index") == numpy.arange(1, 33)).all()

@@ -2,6 +2,7 @@
 """Each kind of data can be opened and written: particles, cells, subdomains, contacts and bonds, bonded particles of restart and data
 files. What is read is what plain readings of the files say."""
 import os
+import warnings
 from fractions import Fraction
 
 import numpy
@@ -76,6 +77,34 @@ lines = {"id1": [1, 2], "id2": [2, 3], "points": [[[0, 0, 0], [1, 0, 0]], [[1, 0
 vg.write("mine.bonds", lines, step=5)
 mine = vg.open("mine.bonds")[0]
 assert mine.step == 5 and numpy.array_equal(mine.points, lines["points"]) and mine["force"].tolist() == lines["force"]
+
+# rows by hand, as programs and manuals have them: the last row, and what is said of all frames and arrays together
+for name, options, last, said in (
+        ("unnamed.local", {"column_map": "bond_id btype id1 id2"}, {"bond_id": 3, "btype": 2, "id1": 6, "id2": 8}, ""),
+        ("angles.local", {}, {"atype": 1, "aatom1": 2, "aatom2": 3, "aatom3": 4}, "(preset AsNamed)"),
+        ("ovito.local", {}, {"id1": 2, "id2": 3, "btype": 2}, ""),
+        ("broken.local", {}, {"f_brk": [12, 13, 150, 4, 4, 4]}, "(preset AsNamed)"),
+        ("broken.local", {"column_map": "id1 id2 time x y z"}, {"id1": 12, "id2": 13, "time": 150, "x": 4, "y": 4, "z": 4}, ""),
+        ("broken.txt", {"column_map": "time id1 id2"}, {"time": 293, "id1": 1815, "id2": 1816}, "the rows have no header")):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        run = vg.open(os.path.join(GOOD, "local", name), **options)
+        found = [{column: frame[column] for column in frame} for frame in run][-1]
+    assert run.kind == "local" and {column: values[-1].tolist() for column, values in found.items()} == last, (name, found)
+    assert len(told) == bool(said) and all(said in str(remark.message) for remark in told), (name, [str(remark.message) for remark in told])
+    if name == "broken.local":
+        assert [frame.rows for frame in run] == [0, 2, 1]
+KEYWORDS = ("pos vel id force force_normal force_tangential torque torque_normal torque_tangential history contactArea delta contactPoint "
+            "ms_id")  # 43 columns, of which the last 3 were not dumped
+try:
+    vg.open(os.path.join(GOOD, "local", "cut_contacts.dump"), column_map=KEYWORDS)[0]["delta"]
+except vg.Error as error:
+    assert "got 0.0203972, in the column c_cp[39] that is taken for ms_id1" in str(error), error
+else:
+    raise AssertionError("other columns taken for the last ones")
+with open("drawn.local", "w") as stream:  # a column that lines have, too, is that of the file
+    stream.write("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: ENTRIES x1 y1 z1 x2 y2 z2 length\n0 0 0 0 0 2 7\n")
+assert vg.open("drawn.local")[0]["length"].tolist() == [7]
 
 # a restart file: particles, and the bonds between them
 path = os.path.join(SAMPLES, "restart", "fibres.20000.restart")
