@@ -242,8 +242,14 @@ WriteView::WriteView(const granular_frame& frame)
   view.coordinates = frame.table.coordinates;
   view.point_origin = frame.origin;
   view.columns = columns_read(frame.table);
+  const void* const made[] = { frame.table.lines.lengths.data(), frame.row_numbers.data(),
+    frame.row_parts.data() };
   for (const FrameArray& array : frame.arrays)
   {
+    if (array.data != nullptr && std::ranges::find(made, array.data) != std::end(made))
+    {
+      continue; // of lines that are drawn, not of the file
+    }
     this->add(array.name, array.type, array.components, array.data, array.word_list);
   }
   this->finish(frame.kind);
@@ -397,11 +403,12 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
   {
     arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),
       find_known("x1", known) });
-    if (table.schema.find_array("length") < 0) // that of the file
+    for (int number = 2; table.schema.find_array(length_name) >= 0; ++number)
     {
-      arrays.push_back({ "length", ValueType::Float64, 1, table.lines.lengths.data(),
-        find_known("length", known) });
+      length_name = "length_" + std::to_string(number);
     }
+    arrays.push_back({ length_name.c_str(), ValueType::Float64, 1, table.lines.lengths.data(),
+      find_known("length", known) });
   }
   for (std::int64_t line = 0; split && line < table.lines.count; ++line)
   {

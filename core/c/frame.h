@@ -56,6 +56,8 @@ struct granular_frame
   const std::vector<std::string> groups;
   std::vector<const char*> group_list;
   std::vector<const char*> type_names;
+  std::string length_name =
+    "length"; ///< of drawn lines: `length_2` and so on if the file has a column `length`
   std::vector<std::int64_t> row_numbers;           ///< in the frame, of split lines
   std::vector<std::int32_t> row_parts;             ///< of the row, from 0
   std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from

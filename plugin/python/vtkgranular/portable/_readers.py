@@ -197,7 +197,7 @@ class Reader(VTKPythonAlgorithmBase):
         offered = run._columns(number, bool(table))
         chosen = [column.name for columns, is_usual in ((offered.usual, 1), (offered.others, 0)) for column in columns
                   if (selection.ArrayIsEnabled(column.name) if selection.ArrayExists(column.name) else is_usual)]
-        names = [*(["ends", "length"] if lines and points else ["points"] if points else []), *chosen]
+        names = [*(["ends"] if lines and points else ["points"] if points else []), *chosen]
         asked = {**self._given(FRAME), **(piece if piece["pieces"] > 1 else {})}
         if not points:
             asked.pop("periodic_lines", None)

@@ -348,7 +348,8 @@ class GranularLocalWriter(Writer):
             begins, ends = begins[own], ends[own]
         rows.keep(begins)
         if not self.values["Columns"]:
-            for name in ("length", "row", "part"):
+            drawn = next(name for name in ("length", *(f"length_{i}" for i in range(2, len(columns) + 3))) if name not in columns)
+            for name in (drawn, "row", "part"):
                 if name not in columns:
                     rows.arrays.pop(name, None)
         if data.GetNumberOfPoints():
