@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
@@ -72,6 +73,7 @@ public:
           " more, got a part; they are left out until all are there" });
     }
     this->note_hidden_files();
+    this->note_repeated();
     result_.places.shrink_to_fit();
     result_.starts.shrink_to_fit();
     return std::move(result_);
@@ -127,6 +129,13 @@ private:
   /// complete.
   void take(std::span<const Place> repeated)
   {
+    for (std::size_t i = 1; i < repeated.size(); ++i)
+    {
+      if (repeated[i].file == repeated[i - 1].file)
+      {
+        ++again_.try_emplace(repeated[i].file, repeated[i], 0).first->second.second;
+      }
+    }
     std::set<std::uint32_t> tried;
     std::string wrong;
     for (auto last = repeated.rbegin(); last != repeated.rend(); ++last)
@@ -260,6 +269,20 @@ private:
     }
   }
 
+  /// Says which timesteps come again in a file, as of a run that was restarted.
+  void note_repeated()
+  {
+    for (const auto& [file, first] : again_)
+    {
+      const auto& [place, count] = first;
+      notices_.push_back({ where_of(files_[file].path, files_[file].frames[place.frame]),
+        "timestep " + std::to_string(this->step(place)) + " comes again in this file" +
+          (count > 1 ? ", as do " + std::to_string(count - 1) + " more" : "") +
+          "; the last frame of a timestep is shown",
+        "repeated" });
+    }
+  }
+
   const std::vector<FileIndex>& files_;
   RepeatedSteps repeated_;
   Notices& notices_;
@@ -267,8 +290,10 @@ private:
   std::vector<PieceSet> sets_;
   std::vector<std::uint32_t> set_of_; ///< of each file: index into sets_, or alone
   std::vector<std::uint32_t> order_;  ///< of each file in its set
-  std::vector<bool> shown_;  ///< of each file: whether a frame of it is, or why not was said
-  Notices waiting_;          ///< of frames that are not complete, since the last that is
+  std::vector<bool> shown_; ///< of each file: whether a frame of it is, or why not was said
+  std::map<std::uint32_t, std::pair<Place, std::size_t>>
+    again_;         ///< of files: the first frame of a timestep that was there, and how many
+  Notices waiting_; ///< of frames that are not complete, since the last that is
   bool all_written_ = false; ///< some of these never will be
 };
 }
