@@ -361,6 +361,7 @@ std::unique_ptr<granular_frame> granular_run::read(
       where_of(this->index().first_piece(frame)));
   }
   Request request = asked;
+  request.points = asked.points && told.has_points;
   request.pool = pool;
   pool->next_frame();
   std::vector<std::string> names = wanted.names;

@@ -82,7 +82,7 @@ with open("pieces/pieces_3000.1.dump", "r+b") as out:
     out.truncate(3000)
 faults = "\n".join(check("pieces/pieces_*.%.dump", status=1)["faults"])
 assert "expected 4 pieces of timestep 2000, got 3 (none for 2)" in faults and "pieces_3000.1.dump:1: expected 122 rows, got 62" in faults, faults
-for name in os.listdir(os.path.join(GOOD, "..", "bad")):
+for name in set(os.listdir(os.path.join(GOOD, "..", "bad"))) - {"coordinates_missing.dump"}:  # which only points need
     check(os.path.join(GOOD, "..", "bad", name), "--kind", "dump", status=1)
 granular("check", "nowhere.dump", status=1)
 granular("check", SOURCE, "--frames", "9", status=2)

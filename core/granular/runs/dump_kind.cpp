@@ -5,6 +5,8 @@
 #include "granular/formats/dump/grammar/dump_files.h"
 #include "granular/formats/dump/read/dump_reader.h"
 
+#include <algorithm>
+
 namespace granular
 {
 namespace
@@ -14,6 +16,7 @@ Offer offer_dump(const RunPlace& place, Progress&)
   Offer offer;
   offer.tables[0] =
     arrays_of(place.index.first_piece(place.frame).entry.kind->schema, known_columns());
+  offer.has_points = !std::ranges::all_of(offer.tables[0], &OfferedArray::is_usual);
   return offer;
 }
 

@@ -33,11 +33,12 @@ struct RunOptions
 {
   RepeatedSteps repeated_steps = RepeatedSteps::Auto; ///< where several files may hold one frame
   std::string
-    column_names; ///< dumps: columns of binary files that do not name them; blanks or commas between
-  std::string preset;     ///< local: of local_presets, AsNamed, or Automatic as when it is empty
-  std::string column_map; ///< local: see name_columns; files of rows alone need it
-  std::string atom_style; ///< data files: see find_data_columns
-  std::string boundary;   ///< data files: see DataOptions
+    column_names;     ///< dumps: columns of files that do not name them; blanks or commas between
+  std::string preset; ///< local: of local_presets, AsNamed, or Automatic as when it is empty
+  std::string
+    column_map; ///< local: see name_columns; files of rows alone need it; dumps: column_names, if these are empty
+  std::string atom_style;                 ///< data files: see find_data_columns
+  std::string boundary;                   ///< data files: see DataOptions
   int history_layout = automatic_history; ///< restart files: see make_bond_schema
   int threads = 1;                        ///< at least 1; changes no result
 
@@ -93,7 +94,8 @@ struct Offer
   std::vector<std::string> columns = {}; ///< of local data: their meaning, see find_columns
   std::string error = {};                ///< why the meaning cannot be known; empty: it is
   Where where = {};                      ///< of the error
-  Notices notices = {}; ///< for whoever reads a frame of these columns; they name the first asked
+  Notices notices = {};   ///< for whoever reads a frame of these columns; they name the first asked
+  bool has_points = true; ///< false: no columns give positions
 };
 
 template <typename Archive>
@@ -107,6 +109,7 @@ void pass(Archive& archive, typename Archive::template Passed<Offer>& offer)
   archive.text(offer.error);
   pass(archive, offer.where);
   pass(archive, offer.notices);
+  archive.number(offer.has_points);
 }
 
 /// A frame of a run, and how its files are understood.

@@ -292,7 +292,8 @@ class Frame(Mapping[str, Any]):
                 with self._lock:
                     self._load([name])
         if name not in self._arrays:
-            raise c.ColumnError(f"expected a file with positions, got one with {', '.join(self)}")
+            path = self._place[1]
+            raise c.ColumnError(f"{c.shown(path)}: expected a file with positions, got one with {', '.join(self)}", path)
         self._asked[name] = None
         self._tell()
         return self._arrays[name]
@@ -461,7 +462,7 @@ class Frame(Mapping[str, Any]):
         return f"<frame {self._number} of {self._run!r}: step {self.step}, columns {' '.join(self)}>"
 
 
-_COMPONENTS = {"points": ("x", "y", "z"), "ends": ("x1", "y1", "z1", "x2", "y2", "z2")}
+_COMPONENTS = {"points": ("x", "y", "z"), "ends": ("x1", "y1", "z1", "x2", "y2", "z2"), "": ()}
 
 
 def _component_names(column: Column) -> Sequence[str]:
@@ -478,7 +479,7 @@ def _component_names(column: Column) -> Sequence[str]:
 def _columns_of(usual: list[Column], others: list[Column], points: str) -> _Columns:
     parts = {column.name: _component_names(column) for column in (*usual, *others)}
     words: dict[str, tuple[str, int | None]] = {part: (points, i) for i, part in enumerate(_COMPONENTS[points])}
-    words |= {name: (name, None) for name in (points, *parts) if name not in words}
+    words |= {name: (name, None) for name in (points, *parts) if name and name not in words}
     for name, names in parts.items():
         for i, part in enumerate(names):
             words.setdefault(part, (name, i))
@@ -490,7 +491,7 @@ def component_columns(frame: Frame) -> dict[str, Any]:
     frame.read()
     columns: dict[str, Any] = {}
     for name in (frame._points_name(), *frame):
-        if name in frame._arrays or name in frame:
+        if name in frame._arrays or frame._is_array(name):
             values = frame._get(name)
             parts = [values] if values.ndim == 1 else values.T
             for part, component in zip(_COMPONENTS.get(name) or frame._columns().parts[name], parts):
@@ -706,7 +707,8 @@ class Run(_Frames):
                     kinds[0 if fact.is_usual else 1].append(
                         Column(c.text(fact.name), "str" if fact.type == c.TEXT else c.TYPES[fact.type], fact.components,
                                c.text(fact.unit), c.text(fact.meaning), tuple(c.text(fact.columns).split())))
-                self._known[key] = _columns_of(*kinds, "ends" if bonds or self.kind == "local" else "points")
+                points = "ends" if bonds or self.kind == "local" else "points" if kinds[1] or self.kind != "dump" else ""
+                self._known[key] = _columns_of(*kinds, points)
             return self._known[key]
 
     def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn,

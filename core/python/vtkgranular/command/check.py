@@ -64,7 +64,7 @@ class Checker:
             wrong = int((frame["radius"] <= 0).sum())
             if wrong:
                 self.faults.append(f"{where}: {wrong} radii are not positive")
-        if frame.rows and of_particles:
+        if frame.rows and of_particles and frame._has_points():
             self._positions(frame, where)
 
     def _numbers(self, frame: Any, where: str) -> None:
