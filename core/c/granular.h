@@ -125,11 +125,11 @@ typedef struct granular_open_options
   granular_kind kind; /* GRANULAR_KIND_AUTOMATIC (default): told apart by the contents of the first file */
   /* time of one timestep, greater than 0, in the unit of the run; by default 1, unless the files hold times */
   double timestep_size;
-  /* columns of binary dumps that do not name them: "id type x y z vx vy vz" */
+  /* columns of dumps that do not name them, binary or without headers: "id type x y z vx vy vz" */
   const char* column_names;
   /* order of the columns of contacts and bonds, by its name */
   const char* preset;
-  /* names of the columns of contacts and bonds, one for each column; files without a header need it */
+  /* names of the columns of contacts and bonds, one for each column; files without a header need it; of dumps as column_names */
   const char* column_map;
   /* atom style of data files that do not name it: "sphere", "hybrid sphere bond" */
   const char* atom_style;

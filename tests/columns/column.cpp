@@ -198,7 +198,8 @@ TEST(ColumnSchema, ElementsThatAreNotAllThereStayColumns)
   EXPECT_EQ(arrays_of("c_a[1] c_a[2] c_a[4]"), "c_a[1](0) c_a[2](1) c_a[4](2)");
   EXPECT_EQ(arrays_of("c_a[1] c_a[4000000000]"), "c_a[1](0) c_a[4000000000](1)");
   EXPECT_EQ(arrays_of("c_a[1] c_a[1000000000]"), "c_a[1](0) c_a[1000000000](1)");
-  EXPECT_EQ(arrays_of("c_a[0] c_a[1]"), "c_a[0](0) c_a[1](1)");
+  EXPECT_EQ(arrays_of("c_a[0] c_a[1]"), "c_a(0,1)") << "own codes count from 0";
+  EXPECT_EQ(arrays_of("c_a[0] c_a[2]"), "c_a[0](0) c_a[2](1)");
   EXPECT_EQ(arrays_of("c_a[-1] c_a[1x] c_a[] c_a[1"), "c_a[-1](0) c_a[1x](1) c_a[](2) c_a[1(3)");
   EXPECT_EQ(arrays_of("x_a[1] x_a[2] [1] [2]"), "x_a[1](0) x_a[2](1) [1](2) [2](3)");
 }

@@ -89,6 +89,7 @@ constexpr Fault faults[] = {
   { "17 1 0.5 0.5 0.5 1", "", false },
   { "17 1 0.5 half 0.5 1", " column 'y': expected a number, got 'half'", true },
   { "17 1 0.5 0.5 0.5", " expected 6 words in a row, got 5", true },
+  { "17 1 0.5 0.5 0.5 1 0", " expected 6 words in a row, got 7", true },
   { "1.5 1 0.5 0.5 0.5 1", " column 'id': expected an integer, got '1.5'", true },
   { "17 2.5 0.5 0.5 0.5 1",
     " column 'type': expected an integer, got '2.5'; the column is kept as doubles", false },
@@ -358,7 +359,7 @@ TEST(FrameFaults, AReadThatFailsAmongOthers)
 /// As many bytes as before, but other rows.
 TEST(FrameFaults, RowsThatCameOrWent)
 {
-  const std::string text = with_rows(3, "9 1 0 0 0 1 and more words here", 50, "");
+  const std::string text = with_rows(3, "9 1 0 0 0 1 # more words here", 50, "");
   const Dump dump(text);
   const auto read_other = [&](const std::string& other)
   {
@@ -375,7 +376,7 @@ TEST(FrameFaults, RowsThatCameOrWent)
   ASSERT_NE(text.find(row), text.npos);
   EXPECT_EQ(read_other(replaced(text, row, "\n" + std::string(row.size() - 2, ' ') + "\n")).error,
     "memory:1: expected 40 rows, got 39");
-  const std::string longer = replaced(text, "1 and more words here", "1\n8 1 0 0 0 1        ");
+  const std::string longer = replaced(text, "1 # more words here", "1\n8 1 0 0 0 1      ");
   EXPECT_EQ(read_other(longer).error, "memory:1: expected 40 rows, got more");
   // the row too many is the last one, and stands before one that is wrong
   EXPECT_EQ(read_other(replaced(longer, "\n39 1 0.25", "\n39 1 wron")).error,

@@ -234,7 +234,7 @@ TEST(FrameParts, TextsOfAllForms)
     replaced(plain, "2 0.75", "\n \t\n\r\n2 0.75") + "\n\n   \n \t \r\n\n";
   for (const std::string& text : { plain, replaced(plain, "\n", "\r\n"),
          replaced(plain, " 0", "\t0"), replaced(plain, " 0 ", "    0\t\t "), blank_lines,
-         replaced(blank_lines, "\n", "\r\n"), replaced(plain, "wet", "wet surplus words 1 2 3"),
+         replaced(blank_lines, "\n", "\r\n"), replaced(plain, "wet", "wet # words 1 2 3"),
          replaced(plain, "\n2", "\n  2"), replaced(plain, "\n2", "\n" + std::string(1, '\0') + "2"),
          plain + replaced(plain, "TIMESTEP\n0", "TIMESTEP\n5") })
   {

@@ -150,12 +150,12 @@ TEST(FrameRanks, NoticesOfEachAreThereOnce)
 {
   const Folder folder;
   const Series series = index_of({ folder.write(
-    "a.dump", rows_with({ { 0, "1000 1 0 0 0 1 more" }, { 80, "1002 1 0 0 0 1 more words" } })) });
+    "a.dump", rows_with({ { 0, "1000 1.5 0 0 0 1" }, { 80, "1002 2.5 0 0 0 1" } })) });
   expect_same_on_ranks(series);
   const Outcome outcome = read_together(series.index.pieces(0), {}, 3);
   EXPECT_EQ(outcome.said,
     folder.path("a.dump") +
-      ":1: expected 6 words in a row, got more in some rows; the rest of them was ignored\n");
+      ":10: column 'type': expected an integer, got '1.5'; the column is kept as doubles\n");
 }
 
 TEST(FrameRanks, AnErrorOfOneIsThatOfAll)

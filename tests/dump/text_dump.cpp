@@ -461,7 +461,6 @@ TEST(TextDump, MissingSectionsAreLeftOutAndSaidSo)
   const std::string good = one_frame("id x y z", "1 2 3 4\n");
   const std::string no_step = replaced(good, "ITEM: TIMESTEP\n0\n", "");
   const std::string no_rows = replaced(good, "ITEM: NUMBER OF ATOMS\n1\n", "");
-  const std::string no_box = replaced(good, "ITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n", "");
   const std::string no_atoms = replaced(good, "ITEM: ATOMS id x y z\n1 2 3 4\n", "");
   const std::string only_time = "ITEM: TIME\n1\n" + no_step;
   EXPECT_EQ(Dump(no_step + good).said(),
@@ -470,13 +469,11 @@ TEST(TextDump, MissingSectionsAreLeftOutAndSaidSo)
   EXPECT_EQ(Dump(no_rows + good).said(),
     "memory:7: expected ITEM: NUMBER OF ATOMS before ITEM: ATOMS, got none; the frame is left "
     "out\n");
-  EXPECT_EQ(Dump(no_box + good).said(),
-    "memory:5: expected ITEM: BOX BOUNDS before ITEM: ATOMS, got none; the frame is left out\n");
   EXPECT_EQ(Dump(no_atoms + good).said(),
     "memory:9: expected ITEM: ATOMS, got 'ITEM: TIMESTEP'; the frame is left out\n");
   EXPECT_EQ(Dump(only_time + good).said(),
     "memory:9: expected ITEM: TIMESTEP before ITEM: ATOMS, got none; the frame is left out\n");
-  for (const std::string& bad : { no_step, no_rows, no_box, no_atoms, only_time })
+  for (const std::string& bad : { no_step, no_rows, no_atoms, only_time })
   {
     const Dump dump(good + bad + good);
     EXPECT_EQ(dump.frames(), 2u) << bad;

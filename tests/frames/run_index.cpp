@@ -321,7 +321,7 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
   EXPECT_EQ(
     error(cut), cut + ":1: expected a complete frame, got the end of the file in its header");
   const std::string rows =
-    folder.write("rows", "\n" + frame(0, 2).substr(0, frame(0, 2).size() - 3));
+    folder.write("rows", "\n" + frame(0, 2).substr(0, frame(0, 2).rfind(' ')));
   EXPECT_EQ(
     error(rows), rows + ":2: expected 2 rows, got 1, and a last line without its line feed");
   ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0600), 0);

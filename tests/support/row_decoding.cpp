@@ -25,11 +25,11 @@ std::size_t width(ValueType type)
 
 std::string to_string(const Decoded& decoded)
 {
-  constexpr const char* names[] = { "Done", "TooFew", "NotANumber", "NotExact" };
+  constexpr const char* names[] = { "Done", "TooFew", "NotANumber", "NotExact", "NotDouble",
+    "TooMany", "Surplus" };
   std::ostringstream text;
   text << names[static_cast<std::size_t>(decoded.status)] << ", rows " << decoded.rows
-       << ", column " << decoded.column << ", stopped at " << decoded.stopped_at << ", surplus "
-       << decoded.surplus;
+       << ", column " << decoded.column << ", stopped at " << decoded.stopped_at;
   return text.str();
 }
 
@@ -54,8 +54,7 @@ Decoded decode(std::string_view text, std::uint32_t columns, const std::vector<W
   const granular::RowResult result = granular::decode_rows(
     buffer.data(), buffer.data() + text.size(), columns, sinks, max_rows, room, simd);
 
-  Decoded decoded{ result.status, result.rows, result.column, result.ptr - buffer.data(),
-    result.surplus, {}, {} };
+  Decoded decoded{ result.status, result.rows, result.column, result.ptr - buffer.data(), {}, {} };
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {
     std::vector<std::uint64_t> bits;

@@ -22,8 +22,7 @@ struct Decoded
   granular::RowStatus status;
   std::int64_t rows;
   int column;
-  std::ptrdiff_t stopped_at; ///< offset of the result's ptr
-  bool surplus;
+  std::ptrdiff_t stopped_at;                    ///< offset of the result's ptr
   std::vector<std::vector<std::uint64_t>> bits; ///< numbers of the complete rows, by sink
   std::vector<std::vector<std::string>> texts;  ///< texts of the complete rows, by sink
 

@@ -405,7 +405,6 @@ TEST(DecodeRows, PicksTheColumnsWanted)
   EXPECT_EQ(got.rows, 2);
   EXPECT_EQ(got.status, RowStatus::Done);
   EXPECT_EQ(got.stopped_at, 18);
-  EXPECT_FALSE(got.surplus);
   EXPECT_EQ(numbers(got.bits[0]), (std::vector<double>{ 2, 6 }));
   EXPECT_EQ(got.texts[1], (std::vector<std::string>{ "aa", "bb" }));
 }
@@ -476,10 +475,19 @@ TEST(DecodeRows, ShortRowWithAWordThatIsNoNumber)
 
 TEST(DecodeRows, RowWithMoreWordsThanColumns)
 {
-  const Decoded got = decode_all("1 2\n3 4 5 x\n6 7\n", 2, { { 1, ValueType::Int64 } });
-  EXPECT_EQ(got.status, RowStatus::Done);
-  EXPECT_TRUE(got.surplus);
-  EXPECT_EQ(got.bits[0], (std::vector<std::uint64_t>{ 2, 4, 7 }));
+  for (const std::uint32_t column : { 0U, 1U }) // the first one alone has a way of its own
+  {
+    const Decoded got = decode_all("1 2\n3 4 5\n6 7\n", 2, { { column, ValueType::Int64 } });
+    EXPECT_EQ(got.status, RowStatus::Surplus);
+    EXPECT_EQ(got.rows, 1);
+    EXPECT_EQ(got.stopped_at, 4);
+    const Decoded comments =
+      decode_all("1 2 #\n3 4 # 5 #x\n6 7 #8\n", 2, { { column, ValueType::Int64 } });
+    EXPECT_EQ(comments.status, RowStatus::Done);
+    EXPECT_EQ(comments.bits[0],
+      column == 0 ? (std::vector<std::uint64_t>{ 1, 3, 6 })
+                  : (std::vector<std::uint64_t>{ 2, 4, 7 }));
+  }
 }
 
 // A NUL is a blank like all bytes up to ' '; bytes from 0x7f on are parts of words.
@@ -610,6 +618,7 @@ public:
       text += this->below(3) == 0 ? this->gap(wild) : "";
       for (std::uint32_t i = 0; i < words; ++i)
       {
+        text += i == columns && !fault ? "#" : ""; // a comment
         text += fault && this->below(3) == 0 ? this->word(true) : this->number();
         text += i + 1 < words || this->below(3) == 0 ? this->gap(wild) : "";
       }

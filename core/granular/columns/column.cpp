@@ -15,13 +15,13 @@ namespace granular
 {
 namespace
 {
-/// Columns that may form one array: names of the table that share `array`, or ID[1..n].
+/// Columns that may form one array: names of the table that share `array`, or ID[1..n], or ID[0..n].
 struct Group
 {
   std::string array;
   bool from_table = false;
-  std::size_t components = 0;         ///< the table says how many; else the largest index
-  std::map<std::size_t, int> columns; ///< by component
+  std::size_t components = 0;         ///< as the table says
+  std::map<std::size_t, int> columns; ///< by component, or index
 };
 
 using Groups = std::map<std::string, Group>;
@@ -32,7 +32,7 @@ bool matches(std::string_view pattern, std::string_view name) noexcept
                                 : pattern == name;
 }
 
-/// Splits "c_abc[2]" into "c_abc" and 2. Zero if the name is no element of a compute, fix,
+/// Splits "c_abc[2]" into "c_abc" and 2. Negative if the name is no element of a compute, fix,
 /// variable or custom array.
 int split_index(std::string_view name, std::string_view& base) noexcept
 {
@@ -42,13 +42,13 @@ int split_index(std::string_view name, std::string_view& base) noexcept
   if (open == name.npos || !name.ends_with(']') ||
     std::none_of(std::begin(prefixes), std::end(prefixes), has_prefix))
   {
-    return 0;
+    return -1;
   }
   int index = 0;
   const char* const last = name.data() + name.size() - 1;
   const auto [ptr, ec] = std::from_chars(name.data() + open + 1, last, index);
   base = name.substr(0, open);
-  return ec == std::errc{} && ptr == last && index >= 1 ? index : 0;
+  return ec == std::errc{} && ptr == last ? index : -1;
 }
 
 ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
@@ -63,6 +63,7 @@ ColumnInfo describe(const std::string& name, std::span<const KnownColumn> table)
     column.role = known->role;
     column.component = known->component;
     column.known = true;
+    column.may_be_words = name == "type"; // which own codes, and labels of LAMMPS, make words
   }
   return column;
 }
@@ -75,28 +76,30 @@ Groups collect_groups(const std::vector<ColumnInfo>& columns, std::span<const Kn
     const KnownColumn* known = find_known_column(columns[i].name, table);
     const bool from_table = known && known->components > 1;
     std::string_view base = from_table ? known->array : std::string_view();
-    const int index = from_table ? known->component + 1 : split_index(columns[i].name, base);
-    if (index > 0)
+    const int index = from_table ? known->component : split_index(columns[i].name, base);
+    if (index >= 0)
     {
       Group& group = groups[std::string(base) + (from_table ? "*" : "")];
       group.array = base;
       group.from_table = group.from_table || from_table;
-      group.components = std::max(
-        group.components, static_cast<std::size_t>(from_table ? known->components : index));
+      group.components = from_table ? static_cast<std::size_t>(known->components) : 0;
       // a column seen twice stays out: which of the two is meant cannot be known
-      group.columns.try_emplace(static_cast<std::size_t>(index - 1), static_cast<int>(i));
+      group.columns.try_emplace(static_cast<std::size_t>(index), static_cast<int>(i));
     }
   }
   return groups;
 }
 
-/// Complete, and ID[1..n] also with n >= 2 and in the file's order: a vector whose components
+/// Complete, and elements ID[1..n] or ID[0..n] also at least two and in the file's order: a vector whose components
 /// changed places would be wrong without anybody noticing.
 bool is_array(const Group& group)
 {
-  return group.columns.size() == group.components && group.components > 1 &&
-    (group.from_table ||
-      std::ranges::is_sorted(group.columns, {}, [](const auto& member) { return member.second; }));
+  const std::size_t size = group.columns.size();
+  const std::size_t first = group.columns.begin()->first;
+  return group.from_table
+    ? size == group.components
+    : size > 1 && first <= 1 && group.columns.rbegin()->first == first + size - 1 &&
+      std::ranges::is_sorted(group.columns, {}, [](const auto& member) { return member.second; });
 }
 
 bool holds_texts(const Group& group, const std::vector<ColumnInfo>& columns)

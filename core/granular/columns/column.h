@@ -70,6 +70,8 @@ struct ColumnInfo
   ColumnRole role = ColumnRole::Other;
   int component = 0; ///< axis of a position or image; end of a line
   bool known = false;
+  bool may_be_words =
+    true;            ///< Text where the first row of a text has a word: unknown columns, and type
   bool open = false; ///< holds what the user decides: integers that no double holds make it Int64
 };
 
@@ -90,8 +92,8 @@ struct ArrayInfo
 
 /// The ordered columns of a frame, and the arrays made from them:
 /// - columns of the table join the vectors that the table names, if all components are present;
-/// - c_ID[1] .. c_ID[n] (also f_, v_, i2_, d2_), n >= 2, complete and in this order in the file, become one array c_ID
-///   of n components, in the file's order (tensors are not reordered);
+/// - c_ID[1] .. c_ID[n] (also f_, v_, i2_, d2_, and from 0 on), n >= 2, complete and in this order in the file, become one
+///   array c_ID of n components, in the file's order (tensors are not reordered);
 /// - a text column is always an array of its own, and so are then the other columns of its vector;
 /// - every other column becomes an array under its own name;
 /// - a name that is taken gets "_2", "_3", ...;

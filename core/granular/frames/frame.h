@@ -60,6 +60,7 @@ struct FrameKind
   bool guessed = false; ///< the columns have no names and are taken for those of dump atom
   std::uint64_t names_hash =
     0; ///< of the columns, of guessed ones of their number; set where the kind is shared
+  bool loose = false; ///< rows of a text may have more words than there are columns
 
   bool is_text() const noexcept { return layout < 0; }
   bool operator==(const FrameKind&) const = default;

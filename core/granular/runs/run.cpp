@@ -17,9 +17,8 @@ namespace
 {
 IndexOptions index_options(const Kind& kind, const RunOptions& options)
 {
-  // no column has a comma in its name
   std::string names = options.column_names.empty() ? options.column_map : options.column_names;
-  std::ranges::replace(names, ',', ' ');
+  std::ranges::replace(names, ',', ' '); // no column has a comma in its name
   const std::vector<std::string_view> words = split_words(names);
   return { .format = &kind.format(),
     .column_names = { words.begin(), words.end() },

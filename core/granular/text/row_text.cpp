@@ -127,10 +127,16 @@ RowEnd store_row(const char* first, const char* last, const RowPlan& plan) noexc
   for (std::uint32_t count = 0;; ++count)
   {
     at = skip_blanks(at);
+    if (count == plan.columns && (plan.loose || *at == '#'))
+    {
+      at = std::find(at, last, '\n');
+    }
     if (*at == '\n')
     {
-      const bool whole = count == 0 || count >= plan.columns;
-      return { whole ? RowStatus::Done : RowStatus::TooFew, count, at };
+      const RowStatus status = count == 0 || count == plan.columns ? RowStatus::Done
+        : count < plan.columns                                     ? RowStatus::TooFew
+                                                                   : RowStatus::Surplus;
+      return { status, count, at };
     }
     if (sink == sinks_end || sink->column != count)
     {
@@ -163,14 +169,13 @@ void decode_plain(
     if (row.status == RowStatus::Done)
     {
       result.ptr = row.word + 1;
-      result.surplus = result.surplus || row.count > plan.columns;
       result.rows += row.count != 0 ? 1 : 0;
       for (ColumnSink& sink : plan.sinks)
       {
         sink.data += row.count != 0 ? sink.stride : 0;
       }
     }
-    else if (row.status != RowStatus::TooFew)
+    else if (row.status != RowStatus::TooFew && row.status != RowStatus::Surplus)
     {
       result.ptr = row.word;
       result.column = static_cast<int>(row.count);
@@ -185,10 +190,10 @@ RowStatus check_word(std::string_view word, ValueType type) noexcept
   return row_text::store(word.data(), word.data() + word.size(), { 0, type, value, 0 });
 }
 
-RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
+RowResult decode_rows(const char* first, const char* last, RowWords words,
   std::span<ColumnSink> sinks, std::int64_t max_rows, RowMemory& memory, Simd simd) noexcept
 {
-  row_text::RowPlan plan{ sinks, columns, memory };
+  row_text::RowPlan plan{ sinks, words.columns, words.loose, memory };
 #if GRANULAR_X86
   switch (simd)
   {

@@ -32,10 +32,11 @@ enum class RowStatus : std::uint8_t
   NotANumber, ///< a word that should be a number is none
   NotExact,   ///< a number that an integer column cannot hold
   NotDouble,  ///< an integer that a column of doubles cannot hold; not given by decode_rows
-  TooMany     ///< more rows than there is room for
+  TooMany,    ///< more rows than there is room for; not given by decode_rows
+  Surplus     ///< a row has more words than there are columns
 };
 
-/// The result of decode_rows. After an error, ptr is the start of the invalid row (TooFew) or word (NotANumber,
+/// The result of decode_rows. After an error, ptr is the start of the invalid row (TooFew, Surplus) or word (NotANumber,
 /// NotExact), column is the word's column, and rows counts the rows before it.
 struct RowResult
 {
@@ -43,7 +44,6 @@ struct RowResult
   std::int64_t rows = 0;
   RowStatus status = RowStatus::Done;
   int column = -1;
-  bool surplus = false; ///< some row had more words than columns; they were passed over
 };
 
 namespace row_text
@@ -56,6 +56,20 @@ struct FreeBatch
 };
 }
 
+/// The number of words of a row.
+struct RowWords
+{
+  std::uint32_t columns;
+  bool loose = false; ///< more words are no error, and ignored
+
+  // NOLINTNEXTLINE(google-explicit-constructor): most rows have as many words as there are columns
+  RowWords(std::uint32_t count, bool more = false)
+    : columns(count)
+    , loose(more)
+  {
+  }
+};
+
 /// Memory that decode_rows needs, about 250 kB, and allocates. It is kept for the next call, and not on the stack, which may be
 /// small.
 using RowMemory = std::unique_ptr<row_text::Batch, row_text::FreeBatch>;
@@ -63,11 +77,11 @@ using RowMemory = std::unique_ptr<row_text::Batch, row_text::FreeBatch>;
 /// Decodes rows of blank-separated words into columns.
 ///
 /// [first, last) holds whole lines: it is empty or ends in LF. It must be in a PaddedBuffer: up to 64 bytes before and
-/// after are read and ignored. columns is the number of words that a row must have. sinks names the requested columns
+/// after are read and ignored. A comment in a row, from a word that begins with '#' behind those of the columns on, is ignored. sinks names the requested columns
 /// in increasing order; each sink's data pointer is advanced past the decoded rows. Lines without words are skipped. At
 /// most max_rows rows are decoded. Numbers equal those of parse_double and parse_int64 to the last bit. Does not throw.
 /// After an error the sinks' data pointers are unspecified. Without memory, words are decoded one by one.
-RowResult decode_rows(const char* first, const char* last, std::uint32_t columns,
+RowResult decode_rows(const char* first, const char* last, RowWords words,
   std::span<ColumnSink> sinks, std::int64_t max_rows, RowMemory& memory,
   Simd simd = best_simd()) noexcept;
 

@@ -25,6 +25,7 @@ struct RowPlan
 {
   std::span<ColumnSink> sinks;
   std::uint32_t columns;
+  bool loose;
   RowMemory& memory;
 };
 
@@ -58,7 +59,6 @@ struct Rows
 {
   std::uint32_t count;
   std::uint32_t end; ///< offset of the line behind the last row
-  bool surplus;      ///< a row had more words than columns
   std::uint16_t first_edges[batch_bytes / 2];
 };
 

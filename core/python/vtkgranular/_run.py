@@ -873,9 +873,10 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
                     and bonds (dump local), restart files, data files, decompositions, Euler cells and grids are told apart by their contents.
     kind            "dump", "local", "restart", "data", "euler", "decomposition" or "grid"; None (default): as the contents say
     dt              time of one timestep, greater than 0, in the unit of the run; by default 1, unless the files hold times
-    column_names    columns of binary dumps that do not name them: "id type x y z vx vy vz"; or a list
+    column_names    columns of dumps that do not name them, binary or without headers: "id type x y z vx vy vz"; or a list
     preset          order of the columns of contacts and bonds, by its name
-    column_map      names of the columns of contacts and bonds, one for each column; files without a header need it; or a list
+    column_map      names of the columns of contacts and bonds, one for each column; files without a header need it; of dumps as
+                    column_names; or a list
     atom_style      atom style of data files that do not name it: "sphere", "hybrid sphere bond"
     boundary        boundaries of the box in data files, which do not hold them: "p p f"; empty: axes that particles have crossed
                     are periodic

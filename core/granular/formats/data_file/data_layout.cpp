@@ -226,6 +226,7 @@ private:
   {
     section.fewest_words =
       section.rows == 0 ? words.size() : std::min(section.fewest_words, words.size());
+    section.most_words = std::max(section.most_words, words.size());
   }
 
   void take_values(const Words& words, DataSection& section)

@@ -41,6 +41,7 @@ struct DataSection
   std::int64_t rows = 0;
   std::size_t words = 0;        ///< of the first row, without its comment
   std::size_t fewest_words = 0; ///< of a row of Ellipsoids: exponents may stand in some
+  std::size_t most_words = 0;   ///< likewise; 0 of other sections
   bool has_comments = false;    ///< some lines before the end have a #
   std::vector<ColumnValues>
     values; ///< of Atoms if no comment names the columns, and of what fixes write

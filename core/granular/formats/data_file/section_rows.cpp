@@ -150,6 +150,13 @@ Table read_section(const FramePiece& file, const ByteSource& source, const DataS
   FrameKind kind;
   kind.schema = *request.schema;
   kind.layout = FrameKind::bare;
+  kind.loose = section.most_words > schema.columns().size();
+  if (kind.loose)
+  {
+    notices.push_back({ { source.path(), section.line },
+      "expected " + std::to_string(schema.columns().size()) +
+        " words in a row, got more in some rows; the rest of them was ignored" });
+  }
   FrameEntry entry = file.entry;
   entry.kind = std::make_shared<const FrameKind>(std::move(kind));
   entry.rows = section.rows;

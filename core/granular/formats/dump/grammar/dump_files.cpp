@@ -5,6 +5,7 @@
 #include "granular/formats/dump/grammar/binary_dump.h"
 #include "granular/formats/dump/grammar/text_dump.h"
 #include "granular/formats/dump/grammar/text_rows.h"
+#include "granular/frames/named_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -47,6 +48,21 @@ std::vector<std::int64_t> find_first_ids(const FileIndex& file, const FrameEntry
   return ids;
 }
 
+bool is_bare(const FileIndex& file)
+{
+  return !file.frames.empty() && file.frames.front().kind->layout == FrameKind::bare;
+}
+
+/// FileFormat::complete: names of columns, and timesteps where files have no headers.
+void complete(std::vector<FileIndex>& files, Notices& notices)
+{
+  complete_atom_names(files, notices);
+  if (!files.empty() && std::ranges::all_of(files, is_bare))
+  {
+    name_steps(files, notices);
+  }
+}
+
 std::string describe_first(const ByteSource& source, const FrameEntry& entry)
 {
   return entry.kind->is_text() ? ""
@@ -59,8 +75,9 @@ const FileFormat& dump_format() noexcept
 {
   static const FileFormat format = { .name = "a dump",
     .index = index_dump,
-    .complete = complete_atom_names,
-    .lacks = lack_atom_names,
+    .complete = complete,
+    .lacks = [](const std::vector<FileIndex>& files)
+    { return lack_atom_names(files) || std::ranges::any_of(files, is_bare); },
     .describe = describe_first,
     .first_rows = find_first_ids,
     .large_runs = true };
@@ -80,15 +97,18 @@ bool is_dump_file(const std::string& path) noexcept
 void index_dump(
   const ByteSource& source, FileIndex& index, Progress& progress, const ScanAhead& ahead)
 {
-  std::array<char, 4096> first;
-  if (holds_binary({ first.data(), source.read(0, first.data(), first.size()) }))
+  std::array<char, 4096> bytes;
+  const std::string_view first(bytes.data(), source.read(0, bytes.data(), bytes.size()));
+  if (holds_binary(first))
   {
-    index_binary_dump(source, index, progress);
+    return index_binary_dump(source, index, progress);
   }
-  else
+  index.unnamed = !first.empty() && !tell_rows(first);
+  if (index.unnamed && !index.column_names.empty())
   {
-    index_text_dump(source, index, progress, ahead);
+    return index_bare_dump(source, index);
   }
+  index_text_dump(source, index, progress, ahead);
 }
 
 std::int64_t extent_of(const FrameEntry& entry) noexcept

@@ -21,8 +21,8 @@ namespace granular
 struct Misfit
 {
   RowStatus
-    status; ///< NotExact: a number that an integer column cannot hold; NotDouble; NotANumber; TooFew; TooMany
-  int column;              ///< -1: of TooFew and TooMany
+    status; ///< NotExact: a number that an integer column cannot hold; NotDouble; NotANumber; TooFew; Surplus; TooMany
+  int column;              ///< -1: of rows
   std::string word;        ///< or the row
   std::int64_t offset = 0; ///< of the word in the content of the file
   std::int64_t lines = 0;  ///< of a text: from the first misfit to this one
@@ -71,9 +71,6 @@ public:
 
   /// Returns true if rows are left to decode.
   virtual bool more() const noexcept = 0;
-
-  /// Returns true if a row decoded since the last open had more words than there are columns.
-  virtual bool surplus() const noexcept { return false; }
 
   /// Decodes the next rows, at most max_rows, into the sinks and moves them on. Returns how many; 0 only
   /// if max_rows is 0 or there are no more. Throws Misfits. Texts stay valid until the next open.

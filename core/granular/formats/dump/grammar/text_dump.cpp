@@ -2,86 +2,34 @@
 #include "granular/formats/dump/grammar/text_dump.h"
 
 #include "granular/common/hash.h"
-#include "granular/formats/dump/grammar/atom_fit.h"
-#include "granular/numbers/number.h"
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <utility>
 
 namespace granular
 {
 namespace
 {
-/// Columns of old dumps of LAMMPS that do not name them: dump atom, scaled, with or without images.
-std::vector<std::string> unnamed_columns(std::size_t words, const Where& where)
+/// A file that is younger may still be written to: its last row may not be whole.
+constexpr std::int64_t settled_after = 60; // seconds
+
+/// Returns the seconds since a file was written to.
+std::int64_t age_of(const FileStamp& stamp)
 {
-  if (words != 0 && words != 5 && words != 8)
-  {
-    throw FormatError(
-      "expected 5 or 8 words in a row of a dump that does not name its columns, got " +
-        std::to_string(words),
-      where);
-  }
-  return name_columns(words == 8 ? 8 : 5, {}, { .scaled = true }).names;
+  using std::chrono::duration_cast, std::chrono::nanoseconds, std::chrono::seconds;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return duration_cast<seconds>(now - nanoseconds(stamp.modified)).count();
 }
 
-bool is_number(std::string_view word)
+std::string age_text(std::int64_t seconds)
 {
-  double number = 0;
-  return static_cast<bool>(parse_double(word.data(), word.data() + word.size(), number));
-}
-
-/// The schema of a frame, from its names and its first row: a column that the table does not know
-/// holds texts if the first one is no number. counted: the rows.
-ColumnSchema make_schema(std::vector<std::string> names,
-  const std::vector<std::string_view>& first_row, const std::string& counted, const Where& where)
-{
-  if (names.empty())
-  {
-    names = counted == "ATOMS" ? unnamed_columns(first_row.size(), where)
-                               : numbered_columns(first_row.size());
-  }
-  ColumnSchema schema(names, known_columns(), where);
-  std::vector<ColumnSchema::TypeChange> texts;
-  for (std::size_t i = 0; i < std::min(names.size(), first_row.size()); ++i)
-  {
-    if (!schema.columns()[i].known && !is_number(first_row[i]))
-    {
-      texts.push_back({ static_cast<int>(i), ValueType::Text });
-    }
-  }
-  schema.set_types(texts);
-  return schema;
-}
-
-/// Returns true if make_schema would give that schema; false where rows have columns without names.
-bool makes_schema(const std::vector<std::string>& names,
-  const std::vector<std::string_view>& first_row, const ColumnSchema& schema)
-{
-  const std::vector<ColumnInfo>& columns = schema.columns();
-  for (std::size_t i = 0; i < columns.size() && names.size() == columns.size(); ++i)
-  {
-    const bool text = !columns[i].known && i < first_row.size() && !is_number(first_row[i]);
-    if (columns[i].name != names[i] ||
-      (!columns[i].known && text != (columns[i].type == ValueType::Text)))
-    {
-      return false;
-    }
-  }
-  return names.size() == columns.size() && (!names.empty() || first_row.empty());
-}
-
-/// Takes the words of the first row, if there is one. They stay until the scanner moves on.
-bool take_first_row(TextScanner& scanner, std::int64_t rows, std::vector<std::string_view>& words)
-{
-  std::string_view line;
-  words.clear();
-  while (rows > 0 && words.empty() && scanner.next(line))
-  {
-    append_words(line, words);
-  }
-  return !words.empty();
+  constexpr std::pair<std::int64_t, const char*> units[] = { { 86400, " d" }, { 3600, " h" },
+    { 60, " min" }, { 1, " s" } };
+  const auto* const unit = std::ranges::find_if(
+    units, [seconds](const auto& one) { return seconds >= one.first || one.first == 1; });
+  return std::to_string(seconds / unit->first) + unit->second + " ago";
 }
 
 /// Finds the frames of a text, one after the other.
@@ -96,12 +44,20 @@ public:
     , scanner_(source, index.resume_offset, index.resume_line, window, ahead)
     , reader_(scanner_, index.units, rows_of)
   {
+    if (index.frames.empty() && !tell_rows(first_bytes_of(source)))
+    {
+      reader_.expect_no_comments();
+    }
   }
 
   void run()
   {
     while (this->next_frame())
     {
+    }
+    if (index_.frames.empty() && others_)
+    {
+      index_.defect = others_;
     }
   }
 
@@ -110,22 +66,29 @@ private:
   bool next_frame()
   {
     reader_.restart(index_.units);
-    Notice why;
+    std::optional<Notice> why;
     try
     {
       return this->read_frame();
     }
+    catch (const OtherRows& error)
+    {
+      this->pass_over(error);
+    }
     catch (const FormatError& error)
     {
-      why = { error.where(), error.text() };
+      why = Notice(error.where(), error.text());
     }
     catch (const LimitError& error)
     {
-      why = { error.where(), error.text() };
+      why = Notice(error.where(), error.text());
     }
     const bool more = this->go_to_next_frame();
     const bool is_frame = more || reader_.opened() || !index_.frames.empty();
-    this->leave_out(why.where, why.text, is_frame ? "frame" : "file");
+    if (why)
+    {
+      this->leave_out(why->where, why->text, is_frame ? "frame" : "file");
+    }
     return more;
   }
 
@@ -142,7 +105,17 @@ private:
       return false;
     }
     const FrameHeader& header = reader_.header();
+    if (reader_.others())
+    {
+      this->pass_over(*reader_.others());
+    }
+    if (reader_.flat())
+    {
+      this->note_once({ scanner_.where(), "the box has no bounds along z: it goes from -0.5 to 0.5",
+        "flat box" });
+    }
     rows_offset_ = scanner_.offset();
+    rows_line_ = scanner_.line();
     index_.units = header.units;
     FrameEntry entry;
     entry.timestep = header.timestep;
@@ -163,6 +136,7 @@ private:
           " rows, got the header of another frame within a row");
       return true;
     }
+    this->pass_comments(entry, rows);
     return this->finish_frame(entry, rows, at_end);
   }
 
@@ -177,16 +151,72 @@ private:
       return true;
     }
     const Where where{ source_.path(), entry.line };
-    std::string why =
+    const std::string why =
       "expected " + std::to_string(entry.rows) + " rows, got " + std::to_string(rows);
     if (at_end && rows < entry.rows)
     {
-      why += this->unfinished_line() ? ", and a last line without its line feed" : "";
-      set_defect(index_, { where, why });
-      return false;
+      return this->finish_last(entry, rows, where, why);
     }
     this->leave_out(where, why);
     return true;
+  }
+
+  /// Keeps a frame at the end of the text that lacks no more than a line feed, if nobody is writing it. False.
+  bool finish_last(FrameEntry& entry, std::int64_t rows, const Where& where, std::string why)
+  {
+    std::string rest(std::size_t{ 1 } << 16, ' '); // what follows the last line feed
+    rest.resize(source_.read(scanner_.offset(), rest.data(), rest.size()));
+    const FileStamp stamp = source_.stamp();
+    const std::int64_t age = age_of(stamp);
+    const bool packed = source_.compressed();
+    const bool whole = rows + 1 == entry.rows && rest.find('\0') == rest.npos &&
+      split_words(rest).size() == entry.kind->schema.columns().size();
+    if (whole &&
+      (packed ? source_.unchecked().empty() : stamp.modified > 0 && age >= settled_after))
+    {
+      if (!packed)
+      {
+        index_.notices.push_back({ { source_.path(), scanner_.line() },
+          "the last row has no line feed; it counts, because the file was written to " +
+            age_text(age) });
+      }
+      entry.end = scanner_.offset() + static_cast<std::int64_t>(rest.size());
+      index_.resume_offset = entry.offset; // the row may grow
+      index_.resume_line = entry.line;
+      index_.frames.push_back(std::move(entry));
+      return false;
+    }
+    why += rest.empty() ? "" : ", and a last line without its line feed";
+    why += whole && !packed && stamp.modified > 0
+      ? " in a file that was written to " + age_text(age)
+      : "";
+    set_defect(index_, { where, why });
+    return false;
+  }
+
+  /// Lines that begin with '#' are no rows. Those behind the last row end the frame; one among the rows is an error.
+  void pass_comments(FrameEntry& entry, std::int64_t& rows)
+  {
+    if (rows <= entry.rows)
+    {
+      return;
+    }
+    const std::int64_t end = entry.end;
+    TextScanner scanner(source_, rows_offset_, rows_line_, window);
+    std::optional<FormatError> comment;
+    for (std::string_view line; scanner.offset() < end && scanner.next(line);)
+    {
+      if (comment && !says_nothing(line))
+      {
+        throw *comment;
+      }
+      if (says_nothing(line) && has_words(line))
+      {
+        entry.end = comment ? entry.end : scanner.last_offset();
+        comment.emplace("expected a row, got " + quoted(line), scanner.where());
+        --rows;
+      }
+    }
   }
 
   const std::shared_ptr<const FrameKind>& kind()
@@ -217,6 +247,26 @@ private:
   {
     set_defect(index_, { where, why });
     index_.notices.push_back({ where, why + "; the " + what + " is left out" });
+  }
+
+  /// Adds a notice unless the file has one of its topic.
+  void note_once(Notice notice)
+  {
+    if (std::ranges::find(index_.notices, notice.topic, &Notice::topic) == index_.notices.end())
+    {
+      index_.notices.push_back(std::move(notice));
+    }
+  }
+
+  /// Says that there are rows of other things. A file of these alone has an error.
+  void pass_over(const OtherRows& others)
+  {
+    others_ = others_ ? others_ : Notice(others.where(), others.text());
+    const std::string_view text = others.text();
+    this->note_once({ others.where(),
+      "the rows behind " + std::string(text.substr(text.find(", got ") + 6)) +
+        " are of another kind, and are passed over in the whole file",
+      "other rows" });
   }
 
   bool go_to_next_frame()
@@ -256,13 +306,6 @@ private:
     return true;
   }
 
-  /// Returns true if something follows the last line feed.
-  bool unfinished_line() const
-  {
-    char byte = 0;
-    return source_.read(scanner_.offset(), &byte, 1) > 0;
-  }
-
   /// A run that was killed within a row and then went on appending leaves "0.16ITEM: TIMESTEP".
   /// Looks for that in the few lines before the scanner, goes there, and ends the frame before it:
   /// rows becomes the number of its rows.
@@ -300,78 +343,10 @@ private:
   std::vector<std::string_view> first_row_; ///< its words
   std::shared_ptr<const FrameKind> kind_;   ///< of the frame before: most have the same
   std::int64_t rows_offset_ = 0;            ///< of the frame at hand
+  std::int64_t rows_line_ = 0;
+  std::optional<Notice> others_; ///< the first rows of other things
 };
 
-}
-
-std::optional<RowsOf> tell_rows(std::string_view first_bytes)
-{
-  constexpr int longest_header = 64; // lines
-  bool opened = false;
-  if (first_bytes.starts_with(byte_order_mark))
-  {
-    first_bytes.remove_prefix(byte_order_mark.size());
-  }
-  for (int line = 0; line < longest_header && !first_bytes.empty(); ++line)
-  {
-    const std::size_t feed = first_bytes.find('\n');
-    const std::string_view text = first_bytes.substr(0, feed);
-    const std::vector<std::string_view> words = item_words(text);
-    if (!opened && !split_words(text).empty())
-    {
-      if (!opens_frame(words))
-      {
-        return {};
-      }
-      opened = true;
-    }
-    if (feed != first_bytes.npos && begins_with(words, "NUMBER OF"))
-    {
-      return begins_with(words, "NUMBER OF ATOMS") ? RowsOf::Particles : RowsOf::Others;
-    }
-    if (feed != first_bytes.npos && begins_with(words, "GRID SIZE"))
-    {
-      return RowsOf::Cells;
-    }
-    first_bytes.remove_prefix(feed == first_bytes.npos ? first_bytes.size() : feed + 1);
-  }
-  return opened ? std::optional(RowsOf::Any) : std::nullopt;
-}
-
-bool is_text_dump(std::string_view first_bytes)
-{
-  const std::optional<RowsOf> rows = tell_rows(first_bytes);
-  return rows == RowsOf::Particles || rows == RowsOf::Any;
-}
-
-std::vector<std::string> numbered_columns(std::size_t count)
-{
-  std::vector<std::string> names;
-  while (names.size() < count)
-  {
-    names.push_back("column" + std::to_string(names.size() + 1));
-  }
-  return names;
-}
-
-bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnSchema& schema)
-{
-  const std::vector<std::string>& names = header.column_names();
-  std::vector<std::string_view> first_row;
-  take_first_row(scanner, header.header().rows, first_row);
-  if (makes_schema(names, first_row, schema))
-  {
-    return true;
-  }
-  try
-  {
-    // names that no header gives
-    return make_schema(names, first_row, header.header().counted, {}) == schema;
-  }
-  catch (const FormatError&)
-  {
-    return false;
-  }
 }
 
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,

@@ -9,6 +9,7 @@
 #include "granular/text/text_scanner.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,12 +27,29 @@ bool is_text_dump(std::string_view first_bytes);
 /// Returns names for columns that are not named: column1, column2 and so on.
 std::vector<std::string> numbered_columns(std::size_t count);
 
+/// Returns the schema of a frame, from its names and its first row: a column that may hold words does if the first one is no
+/// number. counted: the rows. Throws FormatError for a number of columns without names that no dump has.
+ColumnSchema make_schema(std::vector<std::string> names,
+  const std::vector<std::string_view>& first_row, const std::string& counted, const Where& where);
+
+/// Returns true if make_schema would give that schema; false where rows have columns without names.
+bool makes_schema(const std::vector<std::string>& names,
+  const std::vector<std::string_view>& first_row, const ColumnSchema& schema);
+
+/// Takes the words of the first row, if there is one. They stay until the scanner moves on.
+bool take_first_row(TextScanner& scanner, std::int64_t rows, std::vector<std::string_view>& words);
+
 /// Returns true if the names in a header and the words of the first row, which the scanner is at, make these columns.
 bool makes_columns(const TextHeader& header, TextScanner& scanner, const ColumnSchema& schema);
 
 /// Indexes a text dump; see index_dump.
 void index_text_dump(const ByteSource& source, FileIndex& index, Progress& progress,
   const ScanAhead& ahead = {}, RowsOf rows_of = RowsOf::Particles);
+
+/// Indexes a text of rows without headers (`dump_modify header no`), whose columns the user names. If each id comes again as
+/// often as the others, and not before all have come, frames are told apart by that; else all rows are one frame. A notice says
+/// so. Throws FormatError for another number of words than of names.
+void index_bare_dump(const ByteSource& source, FileIndex& index);
 
 /// FileFormat::first_rows for rows that are no particles, and may be equal by chance: a hash of all first rows together.
 std::vector<std::int64_t> hash_first_rows(const FileIndex& file, const FrameEntry& entry);

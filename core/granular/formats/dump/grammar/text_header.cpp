@@ -2,11 +2,9 @@
 #include "granular/formats/dump/grammar/text_header.h"
 
 #include "granular/numbers/number.h"
-#include "granular/numbers/number_scan.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace granular
@@ -17,51 +15,6 @@ namespace
 struct EndOfText
 {
 };
-
-/// Takes the mark off a line that begins with it; else false.
-bool take_item(std::string_view& line) noexcept
-{
-  if (line.starts_with(byte_order_mark))
-  {
-    line.remove_prefix(byte_order_mark.size());
-  }
-  return take_word(line) == item_mark;
-}
-
-/// Returns the place in a line that is no start of a frame where the header of one begins; 0: there is none. A run that was
-/// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
-std::size_t find_glued_header(std::string_view line)
-{
-  if (line.find(item_mark, 1) == line.npos)
-  {
-    return 0;
-  }
-  const std::size_t found = line.rfind(item_mark); // the last: it may have been killed twice
-  const std::string_view before = line.substr(0, found);
-  return before == byte_order_mark || !has_words(before) ||
-      !opens_frame(item_words(line.substr(found)))
-    ? 0
-    : found;
-}
-
-/// The digits of %g, with which LIGGGHTS prints bounds.
-constexpr int fewest_digits = 6;
-
-/// Returns how far a number of six digits may be off because %g printed it: half a unit of the last one. Returns 0 for others,
-/// and for whole ones that end in 0.
-double rounding_of(std::string_view word, double value) noexcept
-{
-  const bool whole = word.find_first_of(".eE") == word.npos;
-  const bool is_round = digits_of(word) != fewest_digits || (whole && word.ends_with('0'));
-  return is_round || !std::isfinite(value)
-    ? 0
-    : 0.5 * std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - fewest_digits);
-}
-}
-
-std::vector<std::string_view> item_words(std::string_view line)
-{
-  return take_item(line) ? split_words(line) : std::vector<std::string_view>();
 }
 
 const TextHeader::Section TextHeader::sections[] = {
@@ -83,7 +36,8 @@ void TextHeader::restart(const std::string& units)
   header_.units = units;
   header_.cells = {};
   next_line_ = 0;
-  opened_ = has_timestep_ = has_rows_ = has_box_ = has_columns_ = false;
+  opened_ = has_timestep_ = has_rows_ = has_box_ = has_columns_ = flat_ = false;
+  others_.reset();
 }
 
 bool TextHeader::read()
@@ -93,7 +47,7 @@ bool TextHeader::read()
     while (!has_columns_)
     {
       const std::string_view line = this->next();
-      if (has_words(line) && line != byte_order_mark)
+      if (!(has_comments_ ? says_nothing(line) : !has_words(line)) && line != byte_order_mark)
       {
         this->read_section(line);
       }
@@ -101,6 +55,10 @@ bool TextHeader::read()
   }
   catch (const EndOfText&)
   {
+    if (others_)
+    {
+      throw *others_;
+    }
   }
   return has_columns_;
 }
@@ -110,12 +68,7 @@ void TextHeader::read_section(std::string_view line)
 {
   // the words outlive the line: the sections read on
   section_ = line;
-  std::string_view rest = section_;
-  words_.clear();
-  if (take_item(rest))
-  {
-    append_words(rest, words_);
-  }
+  words_ = item_words(section_);
   const bool columns = opened_ && !header_.counted.empty() && begins_with(words_, header_.counted);
   const auto section = std::ranges::find_if(sections,
     [this](const Section& entry) { return begins_with(words_, entry.name, entry.alone); });
@@ -123,9 +76,26 @@ void TextHeader::read_section(std::string_view line)
   {
     return this->skip_section(); // between frames, or behind the last
   }
+  const bool counts = section->parse == &TextHeader::parse_rows;
+  const RowsOf counted =
+    begins_with(words_, "NUMBER OF ATOMS", true) ? RowsOf::Particles : RowsOf::Others;
+  if (counts && rows_of_ != counted && rows_of_ < RowsOf::Cells)
+  {
+    others_.emplace(std::string("expected ITEM: NUMBER OF ") +
+        (rows_of_ == RowsOf::Others ? "ENTRIES, or of other things than ATOMS" : "ATOMS") +
+        ", got " + quoted("ITEM: " + join_words(words_)),
+      scanner_.where());
+    return opened_ ? this->skip_section() : throw *others_;
+  }
   if (words_.empty() || (!opened_ && !opens_frame(words_)))
   {
-    this->fail(opened_ ? "an ITEM: line" : "ITEM: TIMESTEP, UNITS or TIME", section_);
+    const std::vector<std::string_view> row = split_words(section_);
+    const bool is_row = row.size() > 2 &&
+      std::ranges::all_of(row, [](std::string_view word) { return is_number(word); });
+    this->fail(opened_ ? "an ITEM: line"
+                       : std::string("ITEM: TIMESTEP, UNITS or TIME") +
+          (is_row ? ", or ColumnNames for rows without headers" : ""),
+      section_);
   }
   if (!opened_)
   {
@@ -169,6 +139,10 @@ void TextHeader::look_for_next_frame()
   {
     const Where where = scanner_.where();
     scanner_.go_to(next_offset_, next_line_);
+    if (others_)
+    {
+      throw *others_;
+    }
     throw FormatError("expected " + this->columns_section() + ", got " + quoted(section_), where);
   }
 }
@@ -198,7 +172,7 @@ void TextHeader::require(bool seen, const char* section) const
 std::string_view TextHeader::value_line()
 {
   std::string_view line = this->next();
-  while (!has_words(line))
+  while (says_nothing(line))
   {
     line = this->next();
   }
@@ -224,7 +198,9 @@ std::int64_t TextHeader::integer(std::string_view word, const std::string& what)
 void TextHeader::parse_timestep()
 {
   std::string_view line = this->value_line(); // some tools add the time as a second word
-  header_.timestep = this->integer(take_word(line), "an integer timestep");
+  const std::string_view word = take_word(line);
+  header_.timestep = this->integer(word,
+    std::string("an integer timestep") + (is_number(word) ? ", and a time under ITEM: TIME" : ""));
   has_timestep_ = true;
 }
 
@@ -248,12 +224,9 @@ void TextHeader::parse_rows()
 {
   const std::string counted = join_words(std::span(words_).subspan(2));
   const bool particles = counted == "ATOMS";
-  if (counted.empty() || rows_of_ == RowsOf::Cells ||
-    (rows_of_ != RowsOf::Any && particles != (rows_of_ == RowsOf::Particles)))
+  if (counted.empty() || rows_of_ == RowsOf::Cells)
   {
-    this->fail(rows_of_ == RowsOf::Cells ? "ITEM: GRID SIZE"
-        : rows_of_ == RowsOf::Others     ? "ITEM: NUMBER OF ENTRIES, or of other things than ATOMS"
-                                         : "ITEM: NUMBER OF ATOMS",
+    this->fail(rows_of_ == RowsOf::Cells ? "ITEM: GRID SIZE" : "ITEM: NUMBER OF ENTRIES",
       "ITEM: " + join_words(words_));
   }
   header_.counted = counted;
@@ -292,18 +265,35 @@ void TextHeader::parse_grid()
   has_rows_ = true;
 }
 
-/// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers.
+/// "[xy xz yz | abc origin] [flags]" and three lines of 2, 3 or 4 numbers; two lines for two flags, of a box without z.
 void TextHeader::parse_box()
 {
   std::span<const std::string_view> rest = std::span(words_).subspan(2);
   const bool tilted = begins_with(rest, "xy xz yz");
   const bool general = begins_with(rest, "abc origin");
   rest = rest.subspan(tilted ? 3 : general ? 2 : 0);
+  if (std::ranges::any_of(rest, is_misplaced))
+  {
+    this->fail(
+      "BOX BOUNDS, xy xz yz if each line has a tilt behind its bounds, and boundaries such "
+      "as pp pp ff",
+      section_);
+  }
   Spelling spelling;
   std::array<std::array<double, 4>, 3> n = {};
+  n[2] = { -0.5, 0.5 };
   header_.box_rounding = {};
   for (std::size_t line = 0; line < n.size(); ++line)
   {
+    if (line == 2 && rest.size() == 2)
+    {
+      flat_ = !item_words(this->next()).empty();
+      scanner_.put_back();
+      if (flat_)
+      {
+        break;
+      }
+    }
     n[line] = this->read_numbers(general ? 4 : tilted ? 3 : 2, &spelling);
     const auto& [lo, hi, tilt, none] = spelling.rounding;
     header_.box_rounding[line] += std::max(lo, hi);
@@ -326,7 +316,7 @@ void TextHeader::parse_box()
     header_.box = tilted ? Box::from_tilted_bounds(lo, hi, n[0][2], n[1][2], n[2][2])
                          : Box::from_bounds(lo, hi);
   }
-  header_.box.boundary = join_words(rest);
+  header_.box.boundary = join_words(rest) + (flat_ ? " pp" : "");
   constexpr std::size_t lammps = 22; // characters of its %.16e
   header_.dialect = spelling.shortest >= lammps ? Dialect::Lammps : Dialect::Liggghts;
   has_box_ = true;
@@ -368,7 +358,7 @@ void TextHeader::parse_columns()
 {
   this->require(has_timestep_, "TIMESTEP");
   this->require(has_rows_, "NUMBER OF ATOMS");
-  this->require(has_box_ || (header_.counted != "ATOMS" && header_.cells[0] == 0), "BOX BOUNDS");
+  this->require(has_box_ || header_.cells[0] == 0, "BOX BOUNDS");
   header_.has_box = has_box_;
   header_.box = has_box_ ? std::move(header_.box) : Box();
   const auto section = split_words(header_.counted).size();

@@ -6,6 +6,7 @@
 #include "granular/text/text_scanner.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,23 @@ bool begins_with(
 /// before it.
 bool opens_frame(std::span<const std::string_view> words) noexcept;
 
+/// Returns the place in a line that is no start of a frame where the header of one begins; 0: there is none. A run that was
+/// killed within a line and then went on appending leaves "0.16ITEM: TIMESTEP".
+std::size_t find_glued_header(std::string_view line);
+
+/// Returns true if a word is a number.
+bool is_number(std::string_view word) noexcept;
+
+/// Returns true if a word behind BOX BOUNDS is no boundary: a number, or a name of tilts, which have a place of their own.
+bool is_misplaced(std::string_view word) noexcept;
+
+/// The digits of %g, with which LIGGGHTS prints bounds.
+inline constexpr int fewest_digits = 6;
+
+/// Returns how far a number of six digits may be off because %g printed it: half a unit of the last one. Returns 0 for others,
+/// and for whole ones that end in 0.
+double rounding_of(std::string_view word, double value) noexcept;
+
 /// Returns the digits of a number before an exponent, from the first that is not 0.
 int digits_of(std::string_view word) noexcept;
 
@@ -36,8 +54,17 @@ enum class RowsOf : std::uint8_t
   Any
 };
 
+/// Rows of other things than a reader is for, which some files have beside its own.
+class OtherRows : public FormatError
+{
+  using FormatError::FormatError;
+};
+
+/// Returns true if a line between sections says nothing: a blank one, or a comment, which begins with '#'.
+bool says_nothing(std::string_view line) noexcept;
+
 /// Reads the header of one frame of a text dump, in any dialect: sections in any order up to ITEM: ATOMS or its
-/// equivalent. Unknown sections are skipped.
+/// equivalent. Unknown sections are skipped, and so are rows of other things.
 class TextHeader
 {
 public:
@@ -48,10 +75,14 @@ public:
     this->restart(units);
   }
 
+  /// Lets lines that begin with '#' be no comments: in a file that is no dump.
+  void expect_no_comments() noexcept { has_comments_ = false; }
+
   /// Prepares for the header of another frame.
   void restart(const std::string& units);
 
-  /// Reads up to and including the line ITEM: ATOMS. Returns false at the end of the text. Throws FormatError.
+  /// Reads up to and including the line ITEM: ATOMS. Returns false at the end of the text. Throws FormatError; OtherRows for a frame
+  /// without rows of these, and between frames.
   bool read();
 
   FrameHeader& header() noexcept { return header_; }
@@ -60,6 +91,8 @@ public:
   std::int64_t offset() const noexcept { return offset_; } ///< of the frame's first line
   std::int64_t line() const noexcept { return line_; }
   bool opened() const noexcept { return opened_; }
+  const std::optional<OtherRows>& others() const noexcept { return others_; } ///< in this frame
+  bool flat() const noexcept { return flat_; } ///< the box has no bounds along z
 
 private:
   struct Section
@@ -108,11 +141,14 @@ private:
   std::int64_t line_ = 0;
   std::int64_t next_offset_ = 0; ///< of the first section that may be another frame's
   std::int64_t next_line_ = 0;
+  std::optional<OtherRows> others_;
   bool opened_ = false;
   bool has_timestep_ = false;
   bool has_rows_ = false;
   bool has_box_ = false;
   bool has_columns_ = false;
+  bool flat_ = false;
+  bool has_comments_ = true;
 };
 }
 #endif

@@ -90,8 +90,8 @@ void TextReader::check_length(std::size_t first, std::size_t end) const
   }
 }
 
-/// The end of the line that the byte at `at` is in, which is loaded as far as it is not. A line without
-/// a line feed at the end of the frame counts as not there.
+/// The end of the line that the byte at `at` is in, which is loaded as far as it is not. One that ends with the frame gets the line feed
+/// that it lacks.
 std::size_t TextReader::load_line(std::size_t at)
 {
   const std::size_t before = std::string_view(buffer_.data(), at).rfind('\n');
@@ -109,7 +109,9 @@ std::size_t TextReader::load_line(std::size_t at)
     const std::int64_t offset = offset_ + static_cast<std::int64_t>(filled_);
     if (offset == of_.entry_.end)
     {
-      return line;
+      buffer_.data()[filled_] = '\n'; // at most the first byte of the padding
+      filled_ += line < filled_ ? 1 : 0;
+      return filled_;
     }
     this->load(offset, std::min(of_.entry_.end, offset + more));
     more *= 2;
@@ -122,7 +124,6 @@ void TextReader::open(std::int64_t first, std::int64_t last)
   const std::int64_t from = std::max(of_.rows_offset_, of_.entry_.offset + first);
   const std::int64_t to = std::min(of_.entry_.end, of_.entry_.offset + last);
   first_ = at_ = end_ = filled_ = 0;
-  surplus_ = false;
   if (from >= to)
   {
     return;
@@ -165,7 +166,7 @@ bool TextReader::more() const noexcept
 
 std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_rows)
 {
-  if (this->columns() == 0) // of an empty frame that names none
+  if (this->columns().columns == 0) // of an empty frame that names none
   {
     return 0;
   }
@@ -174,7 +175,6 @@ std::int64_t TextReader::decode(std::span<ColumnSink> sinks, std::int64_t max_ro
     decode_rows(buffer_.data() + at_, last, this->columns(), sinks, max_rows, memory_);
   this->check(buffer_.data() + at_, last, result, sinks);
   at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
-  surplus_ = surplus_ || result.surplus;
   return result.rows;
 }
 
@@ -205,7 +205,6 @@ bool TextReader::decode_numbers(
   }
   many_chosen_ = chosen > looked_at / rows_a_stretch;
   at_ = static_cast<std::size_t>(result.ptr - buffer_.data());
-  surplus_ = surplus_ || result.surplus;
   counts = { result.rows, result.rows };
   return true;
 }
@@ -258,13 +257,13 @@ RowCounts TextReader::decode_chosen(
   many_chosen_ = stretches > all.rows / rows_a_stretch;
   this->check(buffer_.data() + at_, last, all, std::span(&numbers, 1));
   at_ = static_cast<std::size_t>(all.ptr - buffer_.data());
-  surplus_ = surplus_ || all.surplus;
   return counts;
 }
 
-std::uint32_t TextReader::columns() const noexcept
+RowWords TextReader::columns() const noexcept
 {
-  return static_cast<std::uint32_t>(of_.entry_.kind->schema.columns().size());
+  const FrameKind& kind = *of_.entry_.kind;
+  return { static_cast<std::uint32_t>(kind.schema.columns().size()), kind.loose };
 }
 
 /// Throws what is wrong in rows that were decoded from `first` on, or in the lines up to `last` if not all were, if anything is.
@@ -277,7 +276,7 @@ void TextReader::check(const char* first, const char* last, const RowResult& res
     return Misfit{ status, column, std::string(word), offset_ + (word.data() - buffer_.data()),
       line };
   };
-  if (result.status == RowStatus::TooFew)
+  if (result.status == RowStatus::TooFew || result.status == RowStatus::Surplus)
   {
     const char* const end = std::find(result.ptr, last, '\n');
     throw Misfits{ misfit(result.status, -1, { result.ptr, end }, 0) };

@@ -39,9 +39,21 @@ TextRows::TextRows(const ByteSource& source, const FrameEntry& entry)
 /// Reads the header, which gets -1 rows if it or the first row is not what the index says.
 void TextRows::read_header()
 {
+  header_.rows = -1;
+  for (const RowsOf rows_of : { RowsOf::Any, RowsOf::Particles, RowsOf::Others })
+  {
+    if (header_.rows < 0)
+    {
+      this->read_header(rows_of);
+    }
+  }
+}
+
+void TextRows::read_header(RowsOf rows_of)
+{
   constexpr std::size_t window = 4096; // most headers are shorter
   TextScanner scanner(source_, entry_.offset, entry_.line, window);
-  TextHeader reader(scanner, "", RowsOf::Any);
+  TextHeader reader(scanner, "", rows_of);
   bool is_header = false;
   try
   {
@@ -98,16 +110,39 @@ bool TextRows::is_mended(const Misfit& misfit) const
       !entry_.kind->schema.columns()[static_cast<std::size_t>(misfit.column)].known);
 }
 
+/// Returns the line of a word, as far as it is not very long.
+std::string TextRows::row_of(const Misfit& misfit) const
+{
+  constexpr std::int64_t reach = 4096;
+  const std::int64_t from = std::max(rows_offset_, misfit.offset - reach);
+  const auto before = static_cast<std::size_t>(misfit.offset - from);
+  std::string text(before + reach, ' ');
+  text.resize(source_.read(from, text.data(), text.size()));
+  text.resize(std::min(text.find('\n', before), text.size()));
+  return text.substr(text.substr(0, before).rfind('\n') + 1);
+}
+
 void TextRows::locate(Misfits& misfits) const
 {
   const Misfit& first = misfits.front();
   const Where where = this->where(first);
   if (!this->is_mended(first))
   {
+    const std::size_t columns = entry_.kind->schema.columns().size();
+    const std::string expected = "expected " + std::to_string(columns) + " words in a row";
+    const std::string row = this->row_of(first);
+    std::string apart = row;
+    std::ranges::replace(apart, ',', ' ');
+    const bool joined = first.word.ends_with(',') || split_words(row).size() < columns;
+    if (joined && apart != row && split_words(apart).size() == columns)
+    {
+      throw FormatError(
+        expected + ", separated by blanks, got values separated by commas: " + quoted(row),
+        { where.path, where.line });
+    }
     throw FormatError(first.status == RowStatus::NotANumber
         ? "expected a number, got " + quoted(first.word)
-        : "expected " + std::to_string(entry_.kind->schema.columns().size()) +
-          " words in a row, got " + std::to_string(split_words(first.word).size()),
+        : expected + ", got " + std::to_string(split_words(row.substr(0, row.find('#'))).size()),
       where);
   }
   misfits.erase(std::ranges::find_if_not(

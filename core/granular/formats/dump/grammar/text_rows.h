@@ -3,6 +3,7 @@
 #define granular_formats_dump_grammar_text_rows_h
 
 #include "granular/formats/dump/grammar/frame_rows.h"
+#include "granular/formats/dump/grammar/text_header.h"
 #include "granular/text/text_scanner.h"
 
 #include <cstddef>
@@ -29,8 +30,10 @@ private:
   friend class TextReader;
 
   void read_header();
+  void read_header(RowsOf rows_of);
   bool is_mended(const Misfit& misfit) const;
   Where where(const Misfit& misfit) const;
+  std::string row_of(const Misfit& misfit) const;
   std::string name_of(const Misfit& misfit) const;
 
   const ByteSource& source_;
@@ -52,7 +55,6 @@ public:
   void open(std::int64_t first, std::int64_t last) override;
   std::int64_t rows() const noexcept override;
   bool more() const noexcept override;
-  bool surplus() const noexcept override { return surplus_; }
   std::int64_t decode(std::span<ColumnSink> sinks, std::int64_t max_rows) override;
   RowCounts decode_chosen(
     std::span<ColumnSink> sinks, std::int64_t max_rows, const RowChoice& choice) override;
@@ -63,7 +65,7 @@ private:
   void load(std::int64_t from, std::int64_t to);
   std::size_t load_line(std::size_t at);
   void check_length(std::size_t first, std::size_t end) const;
-  std::uint32_t columns() const noexcept;
+  RowWords columns() const noexcept;
   void check(const char* first, const char* last, const RowResult& result,
     std::span<const ColumnSink> sinks) const;
 
@@ -74,7 +76,6 @@ private:
   std::size_t first_ = 0;   ///< of the rows
   std::size_t at_ = 0;      ///< next row
   std::size_t end_ = 0;     ///< of the rows
-  bool surplus_ = false;
   RowMemory memory_;
   std::vector<std::int64_t> chosen_by_; ///< the integers of a choice
   bool many_chosen_ = false;            ///< of the last rows so many that decoding all is faster

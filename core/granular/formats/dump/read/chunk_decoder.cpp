@@ -102,7 +102,6 @@ void ChunkDecoder::decode(RowReader& reader, std::int64_t number, std::int64_t r
     chunk.rows += got.rows;
   }
   chunk.kept = row_ - chunk.row;
-  chunk.surplus = reader.surplus();
   for (TextDictionary& dictionary : words)
   {
     chunk.words.push_back(dictionary.take());

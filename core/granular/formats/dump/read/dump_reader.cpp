@@ -141,7 +141,8 @@ ColumnSchema join_schemas(const FramePieces& pieces, const Request& request)
     }
     for (std::size_t column = 0; column < other.columns().size(); ++column)
     {
-      if (other.columns()[column].type == ValueType::Text && !schema.columns().at(column).known)
+      if (other.columns()[column].type == ValueType::Text &&
+        schema.columns().at(column).may_be_words)
       {
         texts.push_back({ static_cast<int>(column), ValueType::Text });
       }

@@ -121,7 +121,6 @@ DumpPart FrameDecoder::run(Progress& whole)
     return std::move(part_);
   }
   this->check_counts(pieces_.size());
-  this->note_surplus();
   this->join_words();
   progress.step(1);
   part_.frame = layout_->take(next_row_, part_.ids);
@@ -316,23 +315,6 @@ void FrameDecoder::check_counts(std::size_t pieces) const
     if (count > entry.rows || (all && count < entry.rows))
     {
       fail_count(pieces_[range.piece], count);
-    }
-  }
-}
-
-/// Says once a piece that there were more words in its rows than columns.
-void FrameDecoder::note_surplus()
-{
-  std::size_t said = pieces_.size();
-  for (std::size_t chunk = 0; chunk < decoded_.size(); ++chunk)
-  {
-    const std::size_t piece = chunks_[chunk].piece;
-    if (decoded_[chunk].surplus && piece != said)
-    {
-      part_.notices.push_back({ where_of(pieces_[piece]),
-        "expected " + std::to_string(schema_.columns().size()) +
-          " words in a row, got more in some rows; the rest of them was ignored" });
-      said = piece;
     }
   }
 }

@@ -26,7 +26,6 @@ struct DecodedChunk
   std::int64_t row = 0;  ///< row of the frame in memory where its first row went
   std::int64_t rows = 0; ///< decoded
   std::int64_t kept = 0; ///< by the filters
-  bool surplus = false;  ///< see RowReader::surplus
   Vector3 moved = {};    ///< by single precision: the largest movement of points along each axis
   std::vector<std::vector<std::string>> words; ///< of each column of texts, by their indices
 };
@@ -109,7 +108,6 @@ private:
   void join_ranges(const std::vector<Worker>& workers);
   void count_rows();
   void check_counts(std::size_t pieces) const;
-  void note_surplus();
   void join_words();
 
   const FramePieces& pieces_;
