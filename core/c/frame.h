@@ -88,8 +88,8 @@ granular::Box make_box(const granular_box& box);
 /// Returns the box of a frame; its boundary belongs to the header.
 granular_box box_of(const granular::FrameHeader& header);
 
-/// Fills the corners of the box of a frame; see granular_frame_header.
-void fill_corners(const granular_frame& frame, double (&corners)[24]);
+/// Returns the header of a frame, to which its strings belong.
+granular_frame_header header_of(const granular_frame& frame);
 
 /// Finds the regular grids that the cells of a frame form; see granular_grids.
 std::vector<granular::RegularGrid> find_grids(

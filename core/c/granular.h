@@ -144,8 +144,7 @@ typedef struct granular_open_options
   /* number of threads; 0 (default): one per core */
   int threads;
   granular_progress progress; /* may be null */
-  granular_notice notice;     /* may be null */
-  void* user;                 /* for both */
+  granular_notice notice; void* user; /* notice may be null; user is for both */
   /* null (default): this process alone. Else all ranks open, refresh and read in the same order, each from one thread, and not in their
      functions for progress and notices. Errors and remarks are those of all; each rank reads a part of a frame, see pieces, but cells and
      subdomains whole. The struct is copied; what its user points to must exist until the run is closed */
@@ -164,8 +163,7 @@ GRANULAR_API void granular_close(granular_run* run);
 
 /* Looks for frames that were added, and for files that changed. What functions returned of this run before, counts and
  * strings, is no longer valid; after an error the run is as it was. The functions may be null. */
-GRANULAR_API granular_status granular_refresh(
-  granular_run* run, granular_progress progress, granular_notice notice, void* user);
+GRANULAR_API granular_status granular_refresh(granular_run* run, granular_progress progress, granular_notice notice, void* user);
 
 /* Facts of a run. */
 typedef struct granular_run_facts
@@ -188,8 +186,7 @@ typedef struct granular_frame_facts
 } granular_frame_facts;
 
 /* frame: from 0, or from the end: -1 is the last one. */
-GRANULAR_API granular_status granular_frame_info(
-  granular_run* run, int64_t frame, granular_frame_facts* facts);
+GRANULAR_API granular_status granular_frame_info(granular_run* run, int64_t frame, granular_frame_facts* facts);
 
 /* Facts of a file of a run. */
 typedef struct granular_file_facts
@@ -202,8 +199,7 @@ typedef struct granular_file_facts
 } granular_file_facts;
 
 /* file: from 0, in the order of granular_find_files. */
-GRANULAR_API granular_status granular_file_info(
-  granular_run* run, int64_t file, granular_file_facts* facts);
+GRANULAR_API granular_status granular_file_info(granular_run* run, int64_t file, granular_file_facts* facts);
 
 /* Returns in *frame the last frame at or before a time, or 0. */
 GRANULAR_API granular_status granular_find_frame(granular_run* run, double time, int64_t* frame);
@@ -211,16 +207,8 @@ GRANULAR_API granular_status granular_find_frame(granular_run* run, double time,
 /* Types of values. */
 typedef GRANULAR_ENUM(granular_type)
 {
-  GRANULAR_INT8 = 0,
-  GRANULAR_UINT8 = 1,
-  GRANULAR_INT16 = 2,
-  GRANULAR_UINT16 = 3,
-  GRANULAR_INT32 = 4,
-  GRANULAR_UINT32 = 5,
-  GRANULAR_INT64 = 6,
-  GRANULAR_UINT64 = 7,
-  GRANULAR_FLOAT32 = 8,
-  GRANULAR_FLOAT64 = 9,
+  GRANULAR_INT8 = 0, GRANULAR_UINT8 = 1, GRANULAR_INT16 = 2, GRANULAR_UINT16 = 3, GRANULAR_INT32 = 4, GRANULAR_UINT32 = 5,
+  GRANULAR_INT64 = 6, GRANULAR_UINT64 = 7, GRANULAR_FLOAT32 = 8, GRANULAR_FLOAT64 = 9,
   GRANULAR_TEXT = 10 /* int32 indices into a list of words */
 } granular_type;
 
@@ -236,8 +224,7 @@ typedef struct granular_array_facts
   const char* columns; /* that hold its components, separated by blanks: "vx vy vz"; of local data by their meaning; empty: there are none */
 } granular_array_facts;
 
-/* As the number of a frame: all frames. */
-#define GRANULAR_EVERY_FRAME INT64_MIN
+#define GRANULAR_EVERY_FRAME INT64_MIN /* as the number of a frame: all frames */
 
 /* Returns in *count the number of arrays of a frame, or those of every frame, each name once, and fills the first `most` of them; arrays
  * may be null if most is 0. table: 0, or 1 for bonds. The points are not among them. With ranks, those of every frame are asked by all. */
@@ -288,17 +275,15 @@ typedef struct granular_request
   int pieces;
   /* number of threads; 0 (default): one per core */
   int threads;
-  granular_progress progress;       /* may be null */
-  granular_notice notice;           /* may be null */
-  void* user;                       /* for both */
+  granular_progress progress; /* may be null */
+  granular_notice notice; void* user; /* notice may be null; user is for both */
   int ranges; /* 1: the ranges of points and arrays are found while they are read, where that costs little; 0 (default) */
 } granular_request;
 
 GRANULAR_API void granular_request_init(granular_request* request);
 
 /* Reads a frame into memory of the library. request may be null. Sets *out; release it. */
-GRANULAR_API granular_status granular_read(
-  granular_run* run, int64_t frame, const granular_request* request, granular_frame** out);
+GRANULAR_API granular_status granular_read(granular_run* run, int64_t frame, const granular_request* request, granular_frame** out);
 
 /* Memory of the caller for one array. */
 typedef struct granular_destination
@@ -361,8 +346,7 @@ typedef struct granular_frame_header
   double box_corners[24];           /* as the points are, x y z each, at the ends of no edge, a, b, a b, c, a c, b c, a b c */
 } granular_frame_header;
 
-GRANULAR_API granular_status granular_header(
-  const granular_frame* frame, granular_frame_header* header);
+GRANULAR_API granular_status granular_header(const granular_frame* frame, granular_frame_header* header);
 
 /* An array: rows x components values, row by row. */
 typedef struct granular_array
@@ -392,8 +376,7 @@ GRANULAR_API granular_status granular_array_named(const granular_frame* frame, c
 typedef struct granular_grid
 {
   double lo[3], hi[3], spacing[3];
-  int64_t counts[3];
-  int64_t first;
+  int64_t counts[3], first;
 } granular_grid;
 
 /* Returns in *count the number of regular grids that the cells of a frame form, which was read with its points and without an origin, and
@@ -425,8 +408,7 @@ typedef struct granular_format
   int write_time;             /* 1: ITEM: TIME; LAMMPS only */
   int threads;                /* 0 (default): one per core */
   granular_progress progress; /* may be null */
-  granular_notice notice;     /* may be null */
-  void* user;                 /* for both */
+  granular_notice notice; void* user; /* notice may be null; user is for both */
   /* 1: the file is on the disk before it has its name, and survives a loss of power; 0: the system writes it when it likes; 2
      (default): 1 for one file, 0 for a file of each frame */
   int durable;
@@ -439,8 +421,7 @@ GRANULAR_API void granular_format_init(granular_format* format);
  *
  * A file of the run that a frame comes from, under any name, is replaced by granular_finish. A frame for it is an error if a
  * frame of that file is not complete, because a simulation may be writing it, or if other files have pieces of its frames. */
-GRANULAR_API granular_status granular_create(
-  const char* path, const granular_format* format, granular_writer** writer);
+GRANULAR_API granular_status granular_create(const char* path, const granular_format* format, granular_writer** writer);
 
 /* A frame to write. granular_content_init sets the defaults. */
 typedef struct granular_content
@@ -458,8 +439,7 @@ typedef struct granular_content
      coordinates beside "points" */
   const granular_array* arrays;
   size_t array_count;
-  /* null, or the header of the frame that the arrays come from, changed or not: its columns and their digits, dialect, label, word for
-     rows, and what the points are: coordinates and origin. Timestep, time, units, box and rows are those above */
+  /* null, or the header of the frame that the arrays come from: columns, digits, dialect, label, word for rows, coordinates and origin */
   const granular_frame_header* header;
   granular_run* run; /* null, or the run that the arrays come from, whose files granular_finish may replace */
 } granular_content;
@@ -467,12 +447,10 @@ typedef struct granular_content
 GRANULAR_API void granular_content_init(granular_content* content);
 
 /* Adds a frame from arrays of the caller, which are read where they are. */
-GRANULAR_API granular_status granular_write(
-  granular_writer* writer, const granular_content* content);
+GRANULAR_API granular_status granular_write(granular_writer* writer, const granular_content* content);
 
 /* Adds a frame that was read, with the digits, columns and dialect of its file. A piece is written as it is: in a file of its own. */
-GRANULAR_API granular_status granular_write_frame(
-  granular_writer* writer, const granular_frame* frame);
+GRANULAR_API granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame);
 
 /* Gives the file its name and ends the writer. An error if a frame failed, whatever the reason, or if there was none. After an
  * error, the old file is untouched; the writer is gone in any case. */
@@ -498,8 +476,7 @@ GRANULAR_API granular_status granular_hold_file(granular_file* file, int durable
 
 /* Gives files their names, in this order; one that is not held is completed before. If another program has taken a file away, none
  * gets its name. */
-GRANULAR_API granular_status granular_finish_files(
-  granular_file* const* files, size_t count, int durable);
+GRANULAR_API granular_status granular_finish_files(granular_file* const* files, size_t count, int durable);
 
 /* Ends a file, and removes what has been written if granular_finish_files has not given it its name. Null does nothing. What a
  * killed program leaves is removed by the next granular_begin_file of the same path, with all whose names begin like that of
@@ -511,8 +488,7 @@ GRANULAR_API void granular_close_file(granular_file* file);
 typedef struct granular_names granular_names;
 
 /* Finds the files of a run by patterns, in the order of their numbers: see granular_open. Sets *names; free them. */
-GRANULAR_API granular_status granular_find_files(
-  const char* const* patterns, size_t count, granular_names** names);
+GRANULAR_API granular_status granular_find_files(const char* const* patterns, size_t count, granular_names** names);
 GRANULAR_API size_t granular_name_count(const granular_names* names);
 GRANULAR_API const char* granular_name_at(const granular_names* names, size_t number);
 GRANULAR_API void granular_free_names(granular_names* names);

@@ -300,42 +300,7 @@ extern "C"
 
   granular_status granular_header(const granular_frame* frame, granular_frame_header* header)
   {
-    return guarded(
-      [&]
-      {
-        const granular::FrameHeader& from = needed(frame, "frame").table.header;
-        granular_frame_header made = {};
-        made.timestep = from.timestep;
-        made.has_time = from.time ? 1 : 0;
-        made.time = from.time ? *from.time : frame->time;
-        made.rows = frame->table.rows;
-        made.has_box = from.has_box ? 1 : 0;
-        made.box = box_of(from);
-        made.coordinates = static_cast<granular_coordinates>(frame->table.coordinates);
-        std::copy_n(frame->origin.begin(), 3, made.origin);
-        made.label = from.label.c_str();
-        made.units = from.units.c_str();
-        made.columns = frame->column_text.c_str();
-        made.digits = from.digits.data();
-        made.digit_count = from.digits.size();
-        made.dialect = !from.dialect                   ? ""
-          : *from.dialect == granular::Dialect::Lammps ? "LAMMPS"
-                                                       : "LIGGGHTS";
-        made.arrays = frame->arrays.size();
-        made.row_label = from.counted.c_str();
-        const granular::ShapeSizes sizes =
-          find_shape_sizes(frame->table.schema, from.dialect == granular::Dialect::Lammps);
-        made.shape_sizes = sizes == granular::ShapeSizes::None ? ""
-          : sizes == granular::ShapeSizes::HalfAxes            ? "half axes"
-                                                               : "diameters";
-        made.groups = frame->group_list.data();
-        made.group_count = frame->group_list.size();
-        made.type_names = frame->type_names.data();
-        made.type_name_count = frame->type_names.size();
-        made.box_form = from.box.general ? 2 : from.box.tilted ? 1 : 0;
-        granular_c::fill_corners(*frame, made.box_corners);
-        needed(header, "header") = made;
-      });
+    return guarded([&] { needed(header, "header") = header_of(needed(frame, "frame")); });
   }
 
   granular_status granular_complete_box(granular_box* box)

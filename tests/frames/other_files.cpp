@@ -119,7 +119,8 @@ TEST(OtherFiles, ThoseOfARunAreNone)
   EXPECT_FALSE(other("40 0.1 0.2 0.3\n12 0.1 0.2 0.3\n13 0.1 0.2 0.3\n")); // rows without a header
   EXPECT_FALSE(other("-- PostgreSQL database dump\n"));
   EXPECT_FALSE(other(std::string(200, '\0')));
-  EXPECT_FALSE(other("CDF\1\0\0\0\0\2\0\0\0\0\0\0\0"s)); // a binary dump of timestep 21382211, of two particles
+  EXPECT_FALSE(other(
+    "CDF\1\0\0\0\0\2\0\0\0\0\0\0\0"s)); // a binary dump of timestep 21382211, of two particles
   EXPECT_FALSE(other(""));
   EXPECT_TRUE(other(packing::gzip("ITEM: TIMESTEP\n"))); // packed once more than the file tells
   EXPECT_TRUE(granular::is_refused_file(folder.write("empty", "")));

@@ -35,8 +35,7 @@ struct RunOptions
   std::string
     column_names;     ///< dumps: columns of files that do not name them; blanks or commas between
   std::string preset; ///< local: of local_presets, AsNamed, or Automatic as when it is empty
-  std::string
-    column_map; ///< local: see name_columns; files of rows alone need it; dumps: column_names, if these are empty
+  std::string column_map;                 ///< local: see name_columns; of dumps as column_names
   std::string atom_style;                 ///< data files: see find_data_columns
   std::string boundary;                   ///< data files: see DataOptions
   int history_layout = automatic_history; ///< restart files: see make_bond_schema
