@@ -67,7 +67,7 @@ const Other others[] = {
   { "averages_yaml", "# mine\n# TimeStep c_1\n---\nkeywords: ['Step', ]\n", "averages of a fix in YAML: vtkgranular.read_log", true },
   { "fix_print", "# Fix print output for fix p\n0 1\n", "a table of fix print", true },
   { "cdf1", "CDF\1\0\0\0\0"s, "a NetCDF file: OVITO", true },
-  { "cdf2", "CDF\2\0\0\0\0"s, "a NetCDF file", true },
+  { "cdf2", "CDF\2" + std::string(60, '\0'), "a NetCDF file", true },
   { "cdf5", "CDF\5\0\0\0\0\0\0\0\0"s, "a NetCDF file", true },
   { "netcdf4", "\x89HDF\r\n\x1a\n\0\0_NCProperties"s, "a NetCDF file (HDF5)", true },
   { "h5md", "\x89HDF\r\n\x1a\n\0\0h5md"s, "an HDF5 file (as H5MD is): h5py", true },

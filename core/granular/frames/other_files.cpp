@@ -31,12 +31,14 @@ struct Head
   const ByteSource& source;
 };
 
-/// Other than a binary dump, which may begin with a timestep of these bytes: upper halves of the timestep and of the number of rows.
+/// Other than a binary dump, which may begin with a timestep of these bytes: it has 0 in the upper halves of the timestep and of the
+/// number of rows, and behind them a box.
 bool is_no_dump(const Head& head)
 {
   const std::string_view zeros("\0\0\0\0", 4);
-  return head.bytes.substr(0, 16).size() < 16 || head.bytes.substr(4, 4) != zeros ||
-    head.bytes.substr(12, 4) != zeros;
+  const std::string_view rest = head.bytes.substr(4, 96);
+  return rest.size() < 12 || rest.substr(0, 4) != zeros || rest.substr(8, 4) != zeros ||
+    rest.find_first_not_of('\0') == rest.npos;
 }
 
 /// 80 bytes of any text, the number of triangles, and 50 bytes for each.

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -182,14 +184,18 @@ private:
   void add_masses(Table& frame)
   {
     const auto types = values_in<std::int32_t>(find_array(frame, "type"));
+    const auto odd_types = values_in<double>(find_array(frame, "type")); // where one is not whole
     const auto place = static_cast<std::size_t>(frame.schema.find_array("mass"));
     TableArray array{ frame.schema.arrays()[place], {}, {}, {} };
     array.block = Block(static_cast<std::size_t>(frame.rows) * sizeof(double), own_.pool);
     auto* const to = static_cast<double*>(array.block.data());
     std::fill_n(to, frame.rows, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t row = 0; row < types.size(); ++row)
+    for (std::size_t row = 0; row < std::max(types.size(), odd_types.size()); ++row)
     {
-      const auto mass = layout_->masses.find(types[row]);
+      const double type = types.empty() ? odd_types[row] : types[row];
+      const auto mass = std::abs(type) < 0x1p31 && std::trunc(type) == type
+        ? layout_->masses.find(static_cast<std::int64_t>(type))
+        : layout_->masses.end();
       to[row] = mass == layout_->masses.end() ? to[row] : mass->second;
     }
     frame.arrays.push_back(std::move(array));

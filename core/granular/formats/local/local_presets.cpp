@@ -222,7 +222,13 @@ bool maps_lines(const std::string& map)
   {
     word.resize(std::min(word.find('='), word.size()));
   }
-  return say_what_they_are(expand_keywords(words, 0));
+  // `id` is also a keyword of contacts; particles alone have a place of their own
+  const auto is_place = [](const std::string& word)
+  {
+    const KnownColumn* const known = find_known_column(word);
+    return known != nullptr && is_position(known->role);
+  };
+  return std::ranges::none_of(words, is_place) && say_what_they_are(expand_keywords(words, 0));
 }
 
 bool say_what_they_are(const std::vector<std::string>& columns)

@@ -138,6 +138,8 @@ class Table:
     def add_columns(self, data: Any) -> None:
         """Adds what is known of the columns of a file, behind the header."""
         header = self.header
+        if header.type_name_count:
+            data.AddArray(texts("TypeNames", map(c.text, header.type_names[:header.type_name_count])))
         if header.shape_sizes:
             data.AddArray(texts("ShapeSizes", ["HalfAxes" if c.text(header.shape_sizes) == "half axes" else "Diameters"]))
         data.AddArray(texts("Columns", self.columns))

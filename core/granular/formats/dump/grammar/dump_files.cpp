@@ -103,7 +103,8 @@ void index_dump(
   {
     return index_binary_dump(source, index, progress);
   }
-  index.unnamed = !first.empty() && !tell_rows(first);
+  const bool has_lines = first.size() == bytes.size() || first.find('\n') != first.npos;
+  index.unnamed = has_lines && first.find('\0') == first.npos && !tell_rows(first);
   if (index.unnamed && !index.column_names.empty())
   {
     return index_bare_dump(source, index);
