@@ -122,7 +122,8 @@ def judge(path, column_names, before, given, is_number):
     try:
         after, said = content(path, column_names)
     except vg.Error as error:
-        assert re.search(re.escape(path) + "[:@][0-9]+", str(error)), f"an error without its place: {error}"
+        is_other = path.endswith(".vtk") and "got a VTK file" in str(error)  # no longer cells of ours
+        assert is_other or re.search(re.escape(path) + "[:@][0-9]+", str(error)), f"an error without its place: {error}"
         return "error"
     if path.endswith(".data") and differences({"id": before["id"]}, {"id": after["id"]}):
         only_id = differences(before, after) == [("id", row) for _, row in differences({"id": before["id"]}, {"id": after["id"]})]
