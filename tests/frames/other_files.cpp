@@ -39,15 +39,15 @@ const std::string log_text = "LAMMPS (4 Jul 2026)\n# a comment\nunits si\natom_s
 // clang-format off
 const Other others[] = {
   { "legacy", "# vtk DataFile Version 5.1\nmine\nBINARY\nDATASET POLYDATA\n\0\0"s,
-    "a VTK file: open it in ParaView by LegacyVTKReader, as NAME.vtk; the filters of vtk-granular take its output", false },
-  { "vtp", vtk("PolyData"), "a VTK file: open it in ParaView by XMLPolyDataReader, as NAME.vtp;", false },
+    "a VTK file: ParaView opens it under a name like NAME.vtk (LegacyVTKReader in Python); the filters of vtk-granular take particles in it", false },
+  { "vtp", vtk("PolyData"), "a VTK file: ParaView opens it under a name like NAME.vtp (XMLPolyDataReader in Python);", false },
   { "vtu", "<!-- mine -->\n" + vtk("UnstructuredGrid"), "XMLUnstructuredGridReader", false },
-  { "vti", vtk("RectilinearGrid"), "XMLRectilinearGridReader, as NAME.vtr", false },
-  { "vtm", vtk("vtkMultiBlockDataSet"), "XMLMultiBlockDataReader, as NAME.vtm", false },
+  { "vti", vtk("RectilinearGrid"), "NAME.vtr (XMLRectilinearGridReader ", false },
+  { "vtm", vtk("vtkMultiBlockDataSet"), "NAME.vtm (XMLMultiBlockDataReader ", false },
   { "pvtp", vtk("PPolyData"), "XMLPartitionedPolydataReader", false },
   { "pvd", vtk("Collection"), "PVDReader", false },
-  { "newer", vtk("Hexagons"), "a VTK file: open it in ParaView; the filters", false },
-  { "ascii_stl", "solid\n  facet normal 0 0 1\n", "a mesh (STL): open it in ParaView", false },
+  { "newer", vtk("Hexagons"), "a VTK file: ParaView opens it; the filters", false },
+  { "ascii_stl", "solid\n  facet normal 0 0 1\n", "a mesh (STL): ParaView opens it under a name like NAME.stl", false },
   { "large_stl", "SOLID part\r\nFACET NORMAL 0 0 1\r\n", "a mesh (STL)", false },
   { "binary_stl", stl(2), "a mesh (binary STL)", false },
   { "ply", "ply\nformat ascii 1.0\n", "a mesh (PLY)", false },
@@ -58,20 +58,20 @@ const Other others[] = {
   { "thermo", "   Step  Temp\n 0 1.5\n", "a thermo table: vtkgranular.read_log", true },
   { "thermo_yaml", "---\nkeywords: ['Step', 'Temp', ]\n", "a thermo table in YAML: vtkgranular.read_log", true },
   { "script", "# in.mine\nunits si\natom_style sphere\nread_data grains.data\n", "an input script of LAMMPS or LIGGGHTS: run it", true },
-  { "xyz", "2\n Atoms. Timestep: 0\nsand 0.1 -2e-3 3\nsand 1 2 3\n", "an xyz file: OVITO", false },
+  { "xyz", "2\n Atoms. Timestep: 0\nsand 0.1 -2e-3 3\nsand 1 2 3\n", "an xyz file: if a dump command wrote it, OVITO", false },
   { "extended_xyz", "1\r\nProperties=id:I:1:pos:R:3\r\n1 1 2 3\r\n", "an xyz file", false },
-  { "cfg", "Number of particles = 110\nA = 1 Angstrom\n", "a file of AtomEye (`dump cfg`): OVITO", true },
+  { "cfg", "Number of particles = 110\nA = 1 Angstrom\n", "a file of AtomEye (`dump cfg`): if a dump command wrote it, OVITO", true },
   { "yaml", "---\ncreator: LAMMPS\ntimestep: 0\nnatoms: 2\n", "a file of `dump yaml`: PyYAML", true },
   { "averages", "# Time-averaged data for fix avt\n# TimeStep c_1\n500 0.1\n", "averages of a fix", true },
   { "titled", "# my layers\n# TimeStep Number-of-rows\n# Row c_1\n", "averages of a fix", true },
   { "averages_yaml", "# mine\n# TimeStep c_1\n---\nkeywords: ['Step', ]\n", "averages of a fix in YAML: vtkgranular.read_log", true },
   { "fix_print", "# Fix print output for fix p\n0 1\n", "a table of fix print", true },
-  { "cdf1", "CDF\1\0\0\0\0"s, "a NetCDF file: OVITO", true },
+  { "cdf1", "CDF\1\0\0\0\0"s, "a NetCDF file: if a dump command wrote it, OVITO", true },
   { "cdf2", "CDF\2" + std::string(60, '\0'), "a NetCDF file", true },
   { "cdf5", "CDF\5\0\0\0\0\0\0\0\0"s, "a NetCDF file", true },
   { "netcdf4", "\x89HDF\r\n\x1a\n\0\0_NCProperties"s, "a NetCDF file (HDF5)", true },
   { "h5md", "\x89HDF\r\n\x1a\n\0\0h5md"s, "an HDF5 file (as H5MD is): h5py", true },
-  { "vtkhdf", "\x89HDF\r\n\x1a\n\0\0VTKHDF"s, "by VTKHDFReader, as NAME.hdf", false },
+  { "vtkhdf", "\x89HDF\r\n\x1a\n\0\0VTKHDF"s, "NAME.hdf (VTKHDFReader ", false },
   { "bzip2", "BZh91AY&SY\x01\x02", "a file packed by bzip2: unpack it first; only gzip and Zstandard need no unpacking", true },
   { "xz", "\xfd" "7zXZ\0\0"s, "a file packed by xz", true },
   { "lz4", "\x04\x22\x4d\x18\x64\x40", "a file packed by lz4", true },
@@ -103,6 +103,9 @@ TEST(OtherFiles, AreToldByTheirFirstBytes)
       const std::string said = error_of([&] { run.update({ path }); });
       EXPECT_TRUE(said.starts_with(path + ": expected a dump, got a")) << said;
       EXPECT_NE(said.find(packed ? " inside gzip or Zstandard: " : other.told), said.npos) << said;
+      const bool tells =
+        said.find(": unpack it") != said.npos || said.find("web page") != said.npos;
+      EXPECT_TRUE(!packed || tells) << said; // no reader of other files unpacks them
       EXPECT_EQ(granular::is_refused_file(path), packed || other.refused) << said;
     }
   }

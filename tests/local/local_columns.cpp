@@ -75,10 +75,9 @@ TEST(LocalColumns, Undecidable)
   EXPECT_NE(
     taken(silent_columns(3), { "0.5 2 1" }).find("no preset fits the values"), std::string::npos);
   EXPECT_EQ(taken("atype aatom1 aatom2 aatom3", { "1 1 2 3", "1 2 3 4" }),
-    "atype aatom1 aatom2 aatom3:1: the columns are taken as they are named (Preset AsNamed), "
-    "without lines: "
-    "no preset has as many. For lines name the particles in ColumnMap, as in "
-    "id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2\n");
+    "atype aatom1 aatom2 aatom3:1: no preset has as many columns: the columns keep their names "
+    "(Preset AsNamed), and no lines are drawn. To draw them, name the particles in ColumnMap, as "
+    "in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2\n");
 }
 
 // Two contacts with two walls, or two bonds of two types: few rows do not say which.

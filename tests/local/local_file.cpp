@@ -61,8 +61,7 @@ TEST(LocalFile, RowsAloneAreAFrameWhereTheirColumnsAreNamed)
   run.update({ path }, { "time", "id1", "id2" });
   EXPECT_EQ(run.said(),
     path +
-      ": the rows have no header: they are one frame, of whatever timesteps they are, without a "
-      "box\n");
+      ": the rows have no header with a timestep or a box: all rows of the file are one frame\n");
   ASSERT_EQ(run.size(), 1u);
   EXPECT_EQ(run.columns(), (std::vector<std::string>{ "column1", "column2", "column3" }));
   const granular::Table frame = run.read(0, {}, { "time", "id1", "id2" });

@@ -133,7 +133,7 @@ for words in ("pos vel id force torque delta", "delta torque force id vel pos"):
                           ("v2", slice(9, 12)), ("force", slice(15, 18)), ("torque", slice(18, 21)), ("delta", 21)):
         assert (contacts.column(name) == rows[:, columns]).all(), name
 contacts = Read(good("all.dump"))
-assert len(contacts.said) == 1 and "no preset has as many" in contacts.said[0] and "lines name the particles in ColumnMap" in contacts.said[0]
+assert len(contacts.said) == 1 and "no preset has as many" in contacts.said[0] and "name the particles in ColumnMap" in contacts.said[0]
 assert (contacts.column("c_fa") == rows).all()
 broken = Read(good("broken.txt"), ColumnMap="time id1 id2")  # rows alone, of which the names say whose they are
 assert _find_reader(good("broken.txt"), "time id1 id2") == "GranularLocalReader"

@@ -224,7 +224,7 @@ TEST(RestartDamage, NewerFilesOfLammps)
   const std::string bytes("LammpS RestartT\0\1\0\0\0\2\0\0\0", 24);
   EXPECT_EQ(error_of<granular::UnsupportedError>([&] { layout_of(bytes); }),
     "memory: expected a restart file of LIGGGHTS, got a restart file of LAMMPS: `lmp -restart2data "
-    "FILE NEW.data` makes a data file of it, with all digits");
+    "FILE NEW.data` makes a data file of it in full precision; open that");
 }
 
 /// Bytes read of a file to find that there are no particles in it.

@@ -105,7 +105,7 @@ void update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   index.compressed = source->compressed();
   if (index.frames.empty())
   {
-    refuse_other(*source, index.format->name, index.format->reads_vtk);
+    refuse_other(*source, index.format->name, index.format->reads_vtk, !index.column_names.empty());
   }
   index.format->index(*source, index, progress, ahead);
   drop_repeated(index.notices, known);

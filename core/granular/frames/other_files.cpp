@@ -15,10 +15,11 @@ namespace granular
 {
 namespace
 {
-constexpr const char* converted = "OVITO converts it to a dump; `dump custom` of LAMMPS writes one";
+constexpr const char* converted =
+  "if a dump command wrote it, OVITO converts it to a dump; or run again with `dump custom`";
 constexpr const char* archived = "unpack it, and open the files in it";
 constexpr const char* unpacked = "unpack it first; only gzip and Zstandard need no unpacking";
-constexpr const char* opened = "open it in ParaView";
+constexpr const char* opened = "ParaView opens it";
 constexpr const char* downloaded = "a download has probably gone wrong; download the file itself";
 constexpr const char* logged = "vtkgranular.read_log reads it in Python";
 constexpr const char* averaged = "it holds no particles; a spreadsheet or numpy reads the numbers";
@@ -97,7 +98,7 @@ struct Sign
 // clang-format off
 constexpr Sign binary[] = {
   { 0, "LammpS RestartT", "", "a restart file of LAMMPS",
-    "`lmp -restart2data FILE NEW.data` makes a data file of it, with all digits", Taken::Yes },
+    "`lmp -restart2data FILE NEW.data` makes a data file of it in full precision; open that", Taken::Yes },
   { 4, "1AY&SY", "", "a file packed by bzip2", unpacked },
   { 0, "\xfd" "7zXZ", "", "a file packed by xz", unpacked },
   { 0, "\x04\x22\x4d\x18", "", "a file packed by lz4", unpacked, Taken::No, is_no_dump },
@@ -111,36 +112,36 @@ constexpr Sign binary[] = {
   { 0, "CDF\x02", "", "a NetCDF file", converted, Taken::No, is_no_dump },
   { 0, "CDF\x05", "", "a NetCDF file", converted, Taken::No, is_no_dump },
   { 0, "\x89HDF\r\n", "_NCProperties", "a NetCDF file (HDF5)", converted },
-  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file", " by VTKHDFReader, as NAME.hdf", Taken::Vtk },
-  { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; `dump custom` of LAMMPS writes a dump" },
-  { 0, "", "", "a mesh (binary STL)", opened, Taken::Yes, is_binary_stl },
+  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file", " under a name like NAME.hdf (VTKHDFReader in Python)", Taken::Vtk },
+  { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; or run again with `dump custom`" },
+  { 0, "", "", "a mesh (binary STL)", "ParaView opens it under a name like NAME.stl", Taken::Yes, is_binary_stl },
 };
 
 /// In small letters, as texts are compared.
 constexpr Sign texts[] = {
-  { 0, "# vtk datafile", "", "a VTK file", " by LegacyVTKReader, as NAME.vtk", Taken::Vtk },
-  { 0, "<", " type='polydata'", "a VTK file", " by XMLPolyDataReader, as NAME.vtp", Taken::Vtk },
-  { 0, "<", " type='unstructuredgrid'", "a VTK file", " by XMLUnstructuredGridReader, as NAME.vtu", Taken::Vtk },
-  { 0, "<", " type='imagedata'", "a VTK file", " by XMLImageDataReader, as NAME.vti", Taken::Vtk },
-  { 0, "<", " type='rectilineargrid'", "a VTK file", " by XMLRectilinearGridReader, as NAME.vtr", Taken::Vtk },
-  { 0, "<", " type='structuredgrid'", "a VTK file", " by XMLStructuredGridReader, as NAME.vts", Taken::Vtk },
-  { 0, "<", " type='vtkmultiblockdataset'", "a VTK file", " by XMLMultiBlockDataReader, as NAME.vtm", Taken::Vtk },
-  { 0, "<", " type='vtkpartitioneddataset'", "a VTK file", " by XMLPartitionedDatasetReader, as NAME.vtpd", Taken::Vtk },
-  { 0, "<", " type='vtkpartitioneddatasetcollection'", "a VTK file", " by XMLPartitionedDatasetCollectionReader, as NAME.vtpc",
+  { 0, "# vtk datafile", "", "a VTK file", " under a name like NAME.vtk (LegacyVTKReader in Python)", Taken::Vtk },
+  { 0, "<", " type='polydata'", "a VTK file", " under a name like NAME.vtp (XMLPolyDataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='unstructuredgrid'", "a VTK file", " under a name like NAME.vtu (XMLUnstructuredGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='imagedata'", "a VTK file", " under a name like NAME.vti (XMLImageDataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='rectilineargrid'", "a VTK file", " under a name like NAME.vtr (XMLRectilinearGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='structuredgrid'", "a VTK file", " under a name like NAME.vts (XMLStructuredGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='vtkmultiblockdataset'", "a VTK file", " under a name like NAME.vtm (XMLMultiBlockDataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='vtkpartitioneddataset'", "a VTK file", " under a name like NAME.vtpd (XMLPartitionedDatasetReader in Python)", Taken::Vtk },
+  { 0, "<", " type='vtkpartitioneddatasetcollection'", "a VTK file", " under a name like NAME.vtpc (XMLPartitionedDatasetCollectionReader in Python)",
     Taken::Vtk },
-  { 0, "<", " type='collection'", "a VTK file", " by PVDReader, as NAME.pvd", Taken::Vtk },
-  { 0, "<", " type='ppolydata'", "a VTK file", " by XMLPartitionedPolydataReader, as NAME.pvtp", Taken::Vtk },
-  { 0, "<", " type='punstructuredgrid'", "a VTK file", " by XMLPartitionedUnstructuredGridReader, as NAME.pvtu", Taken::Vtk },
-  { 0, "<", " type='pimagedata'", "a VTK file", " by XMLPartitionedImageDataReader, as NAME.pvti", Taken::Vtk },
-  { 0, "<", " type='prectilineargrid'", "a VTK file", " by XMLPartitionedRectilinearGridReader, as NAME.pvtr", Taken::Vtk },
-  { 0, "<", " type='pstructuredgrid'", "a VTK file", " by XMLPartitionedStructuredGridReader, as NAME.pvts", Taken::Vtk },
+  { 0, "<", " type='collection'", "a VTK file", " under a name like NAME.pvd (PVDReader in Python)", Taken::Vtk },
+  { 0, "<", " type='ppolydata'", "a VTK file", " under a name like NAME.pvtp (XMLPartitionedPolydataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='punstructuredgrid'", "a VTK file", " under a name like NAME.pvtu (XMLPartitionedUnstructuredGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='pimagedata'", "a VTK file", " under a name like NAME.pvti (XMLPartitionedImageDataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='prectilineargrid'", "a VTK file", " under a name like NAME.pvtr (XMLPartitionedRectilinearGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='pstructuredgrid'", "a VTK file", " under a name like NAME.pvts (XMLPartitionedStructuredGridReader in Python)", Taken::Vtk },
   { 0, "<", "<vtkfile", "a VTK file", "", Taken::Vtk }, // of a type that is newer than this table
-  { 0, "solid", "facet", "a mesh (STL)", opened, Taken::Yes },
-  { 0, "ply\n", "", "a mesh (PLY)", opened, Taken::Yes },
+  { 0, "solid", "facet", "a mesh (STL)", "ParaView opens it under a name like NAME.stl", Taken::Yes },
+  { 0, "ply\n", "", "a mesh (PLY)", "ParaView opens it under a name like NAME.ply", Taken::Yes },
   { 0, "<", "<!doctype html", "a web page", downloaded },
   { 0, "<", "<html", "a web page", downloaded },
   { 0, "number of particles =", "", "a file of AtomEye (`dump cfg`)", converted },
-  { 0, "---", "natoms:", "a file of `dump yaml`", "PyYAML reads it in Python; `dump custom` of LAMMPS writes a dump" },
+  { 0, "---", "natoms:", "a file of `dump yaml`", "PyYAML reads it in Python; or run again with `dump custom`" },
   { 0, "---", "keywords:", "a thermo table in YAML", logged },
   { 0, "#", "\nkeywords:", "averages of a fix in YAML", logged },
   { 0, "#", "# timestep", "averages of a fix (ave/time, ave/chunk, ave/histo)", averaged },
@@ -192,12 +193,12 @@ bool is_of_run(std::string_view text)
 }
 }
 
-std::optional<OtherFile> find_other(const ByteSource& source)
+std::optional<OtherFile> find_other(const ByteSource& source, bool may_be_rows)
 {
   constexpr std::int64_t enough = 16384;
   const std::string bytes = read_up_to(source, enough);
   const Sign* sign = find_sign(binary, { bytes, source });
-  if (!sign && !is_of_run(bytes))
+  if (!sign && !may_be_rows && !is_of_run(bytes))
   {
     sign = find_sign(texts, { plain_text(bytes), source });
   }
@@ -208,15 +209,17 @@ std::optional<OtherFile> find_other(const ByteSource& source)
   const bool packed = source.compressed();
   const bool is_taken = sign->taken != Taken::No;
   const bool is_vtk = sign->taken == Taken::Vtk;
+  const bool is_unpacked =
+    sign->advice == downloaded || std::string_view(sign->advice).starts_with("unpack");
   return OtherFile{ sign->what + std::string(packed ? " inside gzip or Zstandard: " : ": ") +
-      (packed && is_taken ? "unpack it, and " : "") + (is_vtk ? opened : "") + sign->advice +
-      (is_vtk ? "; the filters of vtk-granular take its output" : ""),
+      (packed && !is_unpacked ? "unpack it, and " : "") + (is_vtk ? opened : "") + sign->advice +
+      (is_vtk ? "; the filters of vtk-granular take particles in it" : ""),
     is_vtk, is_taken && !packed };
 }
 
-void refuse_other(const ByteSource& source, const char* expected, bool reads_vtk)
+void refuse_other(const ByteSource& source, const char* expected, bool reads_vtk, bool may_be_rows)
 {
-  const std::optional<OtherFile> other = find_other(source);
+  const std::optional<OtherFile> other = find_other(source, may_be_rows);
   if (other && !(other->is_vtk && reads_vtk))
   {
     throw UnsupportedError(

@@ -228,8 +228,7 @@ void make_frames(std::vector<FileIndex>& files, Notices& notices)
   for (const FileIndex& file : files)
   {
     notices.push_back({ { file.path },
-      "the rows have no header: they are one frame, of whatever timesteps they are, without a "
-      "box" });
+      "the rows have no header with a timestep or a box: all rows of the file are one frame" });
   }
   if (files.size() > 1)
   {

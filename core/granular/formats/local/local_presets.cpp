@@ -281,11 +281,9 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
   if (fitting.empty())
   {
     notices.push_back({ where,
-      std::string(
-        "the columns are taken as they are named (Preset AsNamed), without lines: no preset ") +
-        (as_long.empty() ? "has as many" : "fits the values") +
-        ". For lines name the particles in ColumnMap, as in id1=2 id2=3, or the ends, x1 y1 z1 x2 "
-        "y2 z2" });
+      std::string("no preset ") + (as_long.empty() ? "has as many columns" : "fits the values") +
+        ": the columns keep their names (Preset AsNamed), and no lines are drawn. To draw them, "
+        "name the particles in ColumnMap, as in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2" });
     return name_columns(columns);
   }
   if (std::erase(as_long, fitting[0]); !as_long.empty())

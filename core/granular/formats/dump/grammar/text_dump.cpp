@@ -265,7 +265,7 @@ private:
     const std::string_view text = others.text();
     this->note_once({ others.where(),
       "the rows behind " + std::string(text.substr(text.find(", got ") + 6)) +
-        " are of another kind, and are passed over in the whole file",
+        " are passed over in the whole file: they are not of the kind that is read",
       "other rows" });
   }
 
