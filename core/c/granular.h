@@ -385,7 +385,6 @@ GRANULAR_API granular_status granular_grids(const granular_frame* frame, granula
   size_t most, size_t* count);
 
 /* ---- writing --------------------------------------------------------------------------------- */
-
 typedef struct granular_writer granular_writer;
 
 /* The format of a file to write. granular_format_init sets the defaults; null strings are empty. */
@@ -441,13 +440,15 @@ typedef struct granular_content
   size_t array_count;
   /* null, or the header of the frame that the arrays come from: columns, digits, dialect, label, word for rows, coordinates and origin */
   const granular_frame_header* header;
-  granular_run* run; /* null, or the run that the arrays come from, whose files granular_finish may replace */
 } granular_content;
 
 GRANULAR_API void granular_content_init(granular_content* content);
 
 /* Adds a frame from arrays of the caller, which are read where they are. */
 GRANULAR_API granular_status granular_write(granular_writer* writer, const granular_content* content);
+
+/* Tells a writer that its arrays come from a run, whose files granular_finish may replace. */
+GRANULAR_API granular_status granular_add_input(granular_writer* writer, granular_run* run);
 
 /* Adds a frame that was read, with the digits, columns and dialect of its file. A piece is written as it is: in a file of its own. */
 GRANULAR_API granular_status granular_write_frame(granular_writer* writer, const granular_frame* frame);
@@ -460,7 +461,6 @@ GRANULAR_API granular_status granular_finish(granular_writer* writer);
 GRANULAR_API void granular_abandon(granular_writer* writer);
 
 /* ---- files that a program writes itself ------------------------------------------------------ */
-
 typedef struct granular_file granular_file;
 
 /* Begins a file that a program writes in its own way, under the name of an empty temporary file in the folder of path. Sets *file;
@@ -484,7 +484,6 @@ GRANULAR_API granular_status granular_finish_files(granular_file* const* files, 
 GRANULAR_API void granular_close_file(granular_file* file);
 
 /* ---- files ----------------------------------------------------------------------------------- */
-
 typedef struct granular_names granular_names;
 
 /* Finds the files of a run by patterns, in the order of their numbers: see granular_open. Sets *names; free them. */

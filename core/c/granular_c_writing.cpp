@@ -100,15 +100,16 @@ extern "C"
   granular_status granular_write(granular_writer* writer, const granular_content* content)
   {
     return write_frame(writer, content, "content",
+      [&] { return WriteView(taken(content, granular_content_init), writer->kind); });
+  }
+
+  granular_status granular_add_input(granular_writer* writer, granular_run* run)
+  {
+    return guarded(
       [&]
       {
-        const granular_content given = taken(content, granular_content_init);
-        if (given.run != nullptr)
-        {
-          const std::shared_lock lock(given.run->mutex);
-          writer->add_inputs(given.run->shared_index);
-        }
-        return WriteView(given, writer->kind);
+        const std::shared_lock lock(needed(run, "a run").mutex);
+        needed(writer, "writer").add_inputs(run->shared_index);
       });
   }
 

@@ -155,7 +155,7 @@ class Format(Structure):
 class Content(Structure):
     _fields_ = [("size", c_size_t), ("timestep", c_int64), ("time", c_double), ("has_time", c_int), ("units", c_char_p),
                 ("box", POINTER(CBox)), ("rows", c_int64), ("arrays", POINTER(CArray)), ("array_count", c_size_t),
-                ("header", POINTER(FrameHeader)), ("run", c_void_p)]
+                ("header", POINTER(FrameHeader))]
 
 
 _NAMES = POINTER(c_char_p)
@@ -174,6 +174,7 @@ _FUNCTIONS = {
     "granular_grids": (c_void_p, NOTICE, c_void_p, POINTER(Grid), c_size_t, POINTER(c_size_t)),
     "granular_array_at": (c_void_p, c_size_t, POINTER(CArray)),
     "granular_create": (c_char_p, POINTER(Format), POINTER(c_void_p)),
+    "granular_add_input": (c_void_p, c_void_p),
     "granular_write": (c_void_p, POINTER(Content)),
     "granular_write_frame": (c_void_p, c_void_p),
     "granular_finish": (c_void_p,),

@@ -6,6 +6,7 @@ from typing import Any, Iterable
 
 import numpy
 from vtkmodules import vtkCommonCore as core
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkUnstructuredGrid
 
 from .. import _library as c
@@ -17,14 +18,16 @@ _CLASSES = {"int32": core.vtkTypeInt32Array, "int64": core.vtkTypeInt64Array, "f
 
 
 def numbers(name: str | None, values: Any) -> Any:
-    """Returns an array of VTK that shares the memory of a numpy array, and keeps it."""
+    """Returns an array of VTK with the values of a numpy array.
+
+    They are copied: filters make arrays that share the memory of others, and know nothing of what numpy keeps.
+    """
     values = numpy.ascontiguousarray(values)
     made = _CLASSES[values.dtype.name]()
     made.SetNumberOfComponents(values.shape[1] if values.ndim > 1 else 1)
+    made.SetNumberOfTuples(len(values))
     if values.size:
-        flat = values.reshape(-1)
-        made.SetVoidArray(flat, flat.size, 1)
-        made._values = flat  # VTK keeps the attributes of an array whose Python object is gone
+        vtk_to_numpy(made).reshape(-1)[:] = values.reshape(-1)
     if name is not None:
         made.SetName(name)
     return made
@@ -174,12 +177,5 @@ def cells(count: int, size: int) -> vtkCellArray:
     made = vtkCellArray()
     if count * size:
         kind = numpy.int32 if count * size < 2**31 - 1 else numpy.int64
-        made.SetData(copied(numpy.arange(0, count * size + 1, size, dtype=kind)), copied(numpy.arange(count * size, dtype=kind)))
-    return made
-
-
-def copied(values: Any) -> Any:
-    """Returns an array with memory of its own: a vtkCellArray takes the memory of its arrays, and lets these go."""
-    made = _CLASSES[values.dtype.name]()
-    made.DeepCopy(numbers(None, values))
+        made.SetData(numbers(None, numpy.arange(0, count * size + 1, size, dtype=kind)), numbers(None, numpy.arange(count * size, dtype=kind)))
     return made

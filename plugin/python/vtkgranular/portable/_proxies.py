@@ -106,6 +106,8 @@ def _add_setters(made: type, elements: list[Any]) -> None:
         if not command.startswith("Set") or element.get("information_only") == "1" or element.tag == "InputProperty":
             continue
         prop = Property(element)
+        if prop.name == "Preset":  # the library knows it by its name
+            made.presets = {int(entry.get("value")): entry.get("text") for entry in element.iter("Entry")}
         made.defaults[prop.name] = prop.take(tuple(prop.default)) if prop.default else ""
         if not hasattr(made, command):
             setattr(made, command, _setter(prop))

@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 from .. import _library as c
 from .._options import FILES, FRAME, Option
 from .._run import Run, kind_of
-from ._arrays import Table, cells, copied, numbers, texts
+from ._arrays import Table, cells, numbers, texts
 from ._ranks import ranks_of_paraview
 from ._told import Told
 
@@ -142,6 +142,7 @@ class Reader(VTKPythonAlgorithmBase):
             work()
         except c.Cancelled:
             self._message = ""
+            self.SetAbortExecute(0)
             self.Modified()
         except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
             self._message = str(error) or type(error).__name__
@@ -198,7 +199,7 @@ class Reader(VTKPythonAlgorithmBase):
         chosen = [column.name for columns, is_usual in ((offered.usual, 1), (offered.others, 0)) for column in columns
                   if (selection.ArrayIsEnabled(column.name) if selection.ArrayExists(column.name) else is_usual)]
         names = [*(["ends"] if lines and points else ["points"] if points else []), *chosen]
-        asked = {**self._given(FRAME), **(piece if piece["pieces"] > 1 else {})}
+        asked = {**self._given(FRAME), **piece}
         if not points:
             asked.pop("periodic_lines", None)
         handle = run._read(number, names, bool(table), asked, self._progress, self._told.of_rows, ranges=True)
@@ -305,7 +306,7 @@ class GranularDecompositionReader(Reader):
         voxels = numpy.array([0, 4, 2, 6, 1, 5, 3, 7]) + 8 * numpy.arange(end - begin)[:, None]
         cells_of = vtkCellArray()
         if end > begin:
-            cells_of.SetData(copied(8 * numpy.arange(end - begin + 1)), copied(voxels.reshape(-1)))
+            cells_of.SetData(numbers(None, 8 * numpy.arange(end - begin + 1)), numbers(None, voxels.reshape(-1)))
         grid.SetCells(types, cells_of)
         if "nlocal" in known:
             grid.GetCellData().SetScalars(numbers("nlocal", known["nlocal"][begin:end]))

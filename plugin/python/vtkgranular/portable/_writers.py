@@ -40,6 +40,8 @@ class Rows:
             name = array.GetName()
             if name == vtkDataSetAttributes.GhostArrayName():
                 continue
+            if name in ("points", "ends"):
+                raise c.Error(f"column '{name}': expected another name, as the places of rows have it")
             if not name or not (array.IsA("vtkDataArray") or array.IsA("vtkStringArray")):
                 self.told.append(f"the array '{name}' of the type {array.GetDataTypeAsString()} is left out" if name else
                                  "an array without a name is left out")
@@ -111,13 +113,22 @@ class Writer(VTKPythonAlgorithmBase):
             raise c.Error("no input: expected points to write")
         connection = self.GetInputConnection(0, 0)
         source, port = connection.GetProducer(), connection.GetIndex()
-        controller = vtkMultiProcessController.GetGlobalController()
         source.UpdateInformation()
         info = source.GetOutputInformation(port)
         all_times = list(info.Get(Pipeline.TIME_STEPS()) or ()) if info.Has(Pipeline.TIME_STEPS()) else []
         times = all_times if self.values["WriteTimeSteps"] else []
         shown = info.Get(Pipeline.UPDATE_TIME_STEP()) if info.Has(Pipeline.UPDATE_TIME_STEP()) else None
-        for time in times or [None]:
+        try:
+            yield from self._updates(source, port, info, times)
+        finally:
+            if times and shown is not None:
+                info.Set(Pipeline.UPDATE_TIME_STEP(), shown)
+                source.Update(port)
+
+    def _updates(self, source: Any, port: int, info: Any, times: list[float]) -> Iterator[tuple[Any, float | None, float | None]]:
+        """Updates the input to each time, or once."""
+        controller = vtkMultiProcessController.GetGlobalController()
+        for time in times or [None]:  # type: ignore[list-item]
             requests = vtkInformationVector()
             requests.SetNumberOfInformationObjects(port + 1)
             request = requests.GetInformationObject(port)
@@ -133,9 +144,6 @@ class Writer(VTKPythonAlgorithmBase):
             now = there.Get(vtkDataObject.DATA_TIME_STEP()) if there.Has(vtkDataObject.DATA_TIME_STEP()) else None
             whole = all(each == int(each) for each in times) if times else now is not None and now == int(now)
             yield data, now, (time if times else now) if whole else None
-        if times and shown is not None:
-            info.Set(Pipeline.UPDATE_TIME_STEP(), shown)
-            source.Update(port)
 
     def _runs(self) -> list[Any]:
         """The runs of all readers upstream."""
@@ -171,16 +179,26 @@ class Writer(VTKPythonAlgorithmBase):
     def _write(self) -> None:
         if not self._path:
             raise c.Error("no file to write: set FileName first")
+        controller = vtkMultiProcessController.GetGlobalController()
+        if "%" in self._path and (self.style or (controller and controller.GetNumberOfProcesses() > 1)):
+            raise c.Error(f"{c.shown(self._path)}: expected a name without '%': one file holds the rows of all ranks")
         library, pointer = c.library(), c.c_void_p()
+        frames, number = self._frames(), 0
         calls = c.Calls(self._progress, self._told.of_rows)
         try:
-            for number, (data, time, step) in enumerate(self._frames()):
-                own: Any
+            while True:
+                own: Any = None
+                time = step = None
                 try:
+                    data, time, step = next(frames)
                     own = self.take(data)
+                except StopIteration:
+                    pass
                 except Exception as error:  # noqa: BLE001 (raised on all ranks)
-                    own = error
+                    own = c.Error(str(error))
                 parts = gather(own)
+                if share(all(part is None for part in parts)):  # as the first rank has it
+                    break
                 failure: Any = next((part for part in parts if isinstance(part, Exception)), None)
                 if is_first() and failure is None:
                     try:
@@ -195,6 +213,7 @@ class Writer(VTKPythonAlgorithmBase):
                 failure = share(failure)
                 if failure is not None:
                     raise failure
+                number += 1
             failure = None
             if is_first():
                 try:
@@ -206,6 +225,8 @@ class Writer(VTKPythonAlgorithmBase):
             if failure is not None:
                 raise failure
         finally:
+            frames.close()
+            self.SetAbortExecute(0)  # holds for one file
             if pointer:
                 library.granular_abandon(pointer)
 
@@ -217,6 +238,8 @@ class Writer(VTKPythonAlgorithmBase):
         """Writes the rows of all ranks, with the facts of the first one that has any."""
         filled = [part for part in parts if len(part)] or parts[:1]
         known = filled[0]
+        if any(list(part.arrays) != list(known.arrays) for part in filled):
+            raise c.Error(f"{c.shown(self._path)}: expected the same arrays on all ranks, got others on some")
         for text in (text for part in filled for text in part.told):
             self._told.warn(text)
         arrays = {name: values if len(filled) == 1 else numpy.concatenate([part.arrays[name] for part in filled])
@@ -241,7 +264,7 @@ class Writer(VTKPythonAlgorithmBase):
         if box is not None:
             content.box = ctypes.pointer(box)
         for run in self._runs():
-            content.run = run._handle._as_parameter_
+            c.library().granular_add_input(pointer, run._open())
         c.library().granular_write(pointer, c.byref(content))
 
     @staticmethod
@@ -341,7 +364,11 @@ class GranularLocalWriter(Writer):
         part = rows.arrays.get("part")
         is_split = part is not None and part.dtype.kind == "i" and "row" in rows.arrays
         begins = (part == 0).nonzero()[0] if is_split else numpy.arange(count)
-        ends = numpy.append(begins[1:], count) - 1 if count else begins
+        ends = numpy.append(begins[1:], count) - 1 if len(begins) else begins
+        if is_split and count:
+            counted = numpy.arange(count) - numpy.repeat(begins, ends - begins + 1) if len(begins) and begins[0] == 0 else -1
+            if numpy.any(counted != part):
+                raise c.Error(f"{c.shown(self._path)}: expected all parts of a line one after the other, got others")
         ghosts = data.GetCellGhostArray()
         if ghosts:
             own = (vtk_to_numpy(ghosts)[begins] & _DUPLICATE) == 0
@@ -375,6 +402,8 @@ class GranularEulerWriter(Writer):
     def take(self, data: Any) -> Rows:
         rows = Rows(data)
         if data.IsA("vtkImageData"):
+            if not data.GetDirectionMatrix().IsIdentity():
+                raise c.Error(f"{c.shown(self._path)}: expected an image along the axes, got a turned one")
             extent, origin, spacing = data.GetExtent(), data.GetOrigin(), data.GetSpacing()
             along = [origin[i] + (numpy.arange(extent[2 * i], extent[2 * i + 1]) + 0.5) * spacing[i] for i in range(3)]
             z, y, x = numpy.meshgrid(*along[::-1], indexing="ij")
@@ -408,7 +437,13 @@ class GranularDecompositionWriter(Writer):
             raise c.Error(f"{c.shown(self._path)}: expected voxels to write, got another cell")
         corners = vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 8) if count else numpy.empty((0, 8), dtype=int)
         points = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else numpy.empty((0, 3))
-        rows.arrays["lo"], rows.arrays["hi"] = points[corners[:, 0]], points[corners[:, 7]]
+        origin = rows.facts["PointOrigin"]
+        of_cells = (points + (0 if origin is None else origin.reshape(3)))[corners]
+        rows.arrays["lo"], rows.arrays["hi"] = of_cells[:, 0], of_cells[:, 7]
+        sides = numpy.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], dtype=bool)
+        expected = numpy.where(sides, rows.arrays["hi"][:, None], rows.arrays["lo"][:, None])
+        if not numpy.array_equal(of_cells, expected, equal_nan=True):
+            raise c.Error(f"{c.shown(self._path)}: expected voxels along the axes to write, got others")
         for name, own in (("nlocal", ("nlocal",)), ("proc", ("proc", "procID"))):
             array = next(filter(None, map(data.GetCellData().GetArray, own)), None)
             if array:
