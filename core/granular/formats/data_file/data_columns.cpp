@@ -128,7 +128,7 @@ Style find_style(const DataLayout& layout, const DataSection* atoms, std::string
   {
     return named.value_or(style_of(atom_styles().front()));
   }
-  const Style style = named ? *named : guess_style(layout, !text.empty(), where, notices);
+  Style style = named ? *named : guess_style(layout, !text.empty(), where, notices);
   if (style.columns_of(atoms->words).empty())
   {
     const std::size_t usual = style.columns.size();
