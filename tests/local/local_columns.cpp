@@ -10,7 +10,7 @@
 
 namespace
 {
-/// What a file with these rows is taken for, the error behind its path, or what is said where no preset fits.
+/// Returns the meaning that a file with these rows gets, the error behind its path, or the remark where no preset fits.
 std::string taken(const std::string& columns, const std::vector<std::string>& rows)
 {
   const std::string path = write_text("columns.dump", local_frame(columns, rows));
@@ -203,7 +203,7 @@ TEST(ColumnMap, NamesAndKeywords)
     "index id1 id2 force forcex forcey forcez");
 }
 
-// Where the last columns of a compute were not dumped, history stands for fewer, and all behind it are others.
+// History stands for fewer columns if the last ones of a compute were not dumped, and all behind it are others.
 TEST(ColumnMap, HistoryThatIsContradicted)
 {
   // two contacts of pair/gran/local pos id history contactArea contactPoint ms_id, with three numbers of history

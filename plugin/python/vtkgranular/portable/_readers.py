@@ -191,14 +191,16 @@ class Reader(VTKPythonAlgorithmBase):
 
         return self._guarded(work, outputs)
 
+    def chosen(self, run: Run, number: int, table: int = 0) -> list[str]:
+        """Returns the arrays of a table of a frame that are on, and usual ones that the list does not have."""
+        selection, offered = self._selections[self.tables[table]], run._columns(number, bool(table))
+        return [column.name for columns, is_usual in ((offered.usual, 1), (offered.others, 0)) for column in columns
+                if (selection.ArrayIsEnabled(column.name) if selection.ArrayExists(column.name) else is_usual)]
+
     def read(self, run: Run, number: int, piece: dict[str, int], table: int = 0, points: bool = True) -> Table:
         """Reads the chosen arrays of a table of a frame."""
-        name = self.tables[table]
-        selection, lines = self._selections[name], name == "Cells"
-        offered = run._columns(number, bool(table))
-        chosen = [column.name for columns, is_usual in ((offered.usual, 1), (offered.others, 0)) for column in columns
-                  if (selection.ArrayIsEnabled(column.name) if selection.ArrayExists(column.name) else is_usual)]
-        names = [*(["ends"] if lines and points else ["points"] if points else []), *chosen]
+        lines = self.tables[table] == "Cells"
+        names = [*(["ends"] if lines and points else ["points"] if points else []), *self.chosen(run, number, table)]
         asked = {**self._given(FRAME), **piece}
         if not points:
             asked.pop("periodic_lines", None)
@@ -208,6 +210,12 @@ class Reader(VTKPythonAlgorithmBase):
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         """Fills the outputs with a frame."""
         raise NotImplementedError
+
+
+def _part(count: int, piece: dict[str, int]) -> tuple[int, int]:
+    """Returns where a piece of so many rows begins and ends."""
+    begin, end = (count * each // piece["pieces"] for each in (piece["piece"], piece["piece"] + 1))
+    return begin, end
 
 
 class _Particles(Reader):
@@ -227,7 +235,7 @@ class _Particles(Reader):
             else:
                 data.AddArray(array)
         if piece["piece"] == 0 and not table.fill_box(box):
-            self._told.warn(f"{c.shown(c.text(run._place_of(number)[1][1].encode()))}: the box is not finite and not shown")
+            self._told.warn(f"{c.shown(run._place_of(number)[1][1])}: the box is not finite and not shown")
         for output in (particles, box):
             table.add_header(output.GetFieldData())
             table.add_columns(output.GetFieldData())
@@ -295,7 +303,7 @@ class GranularDecompositionReader(Reader):
             imbalance = float(counts.max(initial=0)) * len(counts) / math.fsum(counts) if counts.any() else 1.0
             grid.GetFieldData().AddArray(numbers("imbalance", numpy.array([imbalance])))
         count = len(known["lo"])
-        begin, end = (count * each // piece["pieces"] for each in (piece["piece"], piece["piece"] + 1))
+        begin, end = _part(count, piece)
         bounds = numpy.stack([known["lo"][begin:end], known["hi"][begin:end]])
         # corner i j k of subdomain p is point 8p + 4i + 2j + k, as dump decomposition/vtk numbers points
         corners = numpy.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
@@ -386,16 +394,12 @@ class GranularEulerReader(Reader):
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         # each rank reads all, and keeps its part
         output, info = outputs[0], self.GetOutputInformation(0)
-        selection = self._selections["Points"]
-        names = [name for name in run._columns(number).parts if not selection.ArrayExists(name) or selection.ArrayIsEnabled(name)]
-        usual = {column.name for column in run._columns(number).usual}
-        names = [name for name in names if name in usual or selection.ArrayIsEnabled(name)]
-        table = Table(run._read(number, ["points", *names], False, self._threads(), self._progress, self._told.of_rows))
+        table = Table(run._read(number, ["points", *self.chosen(run, number)], False, self._given(FRAME), self._progress, self._told.of_rows))
         grids = self._grids(run, table) if self._is_image() else []
         arrays = {name: vtk_to_numpy(array) for name, array in table.arrays.items()}
         count = table.points.GetNumberOfPoints()
         if not self._is_image():
-            begin, end = (count * each // piece["pieces"] for each in (piece["piece"], piece["piece"] + 1))
+            begin, end = _part(count, piece)
             points = vtkPoints()
             points.SetData(numbers("Points", vtk_to_numpy(table.points.GetData())[begin:end]))
             output.SetPoints(points)
@@ -413,7 +417,7 @@ class GranularEulerReader(Reader):
             else:
                 _add_values(output.GetCellData(), {name: values[:0] for name, values in arrays.items()})
         else:
-            begin, end = (len(grids) * each // piece["pieces"] for each in (piece["piece"], piece["piece"] + 1))
+            begin, end = _part(len(grids), piece)
             output.SetNumberOfPartitions(len(grids))
             for i in range(begin, end):
                 image = vtkImageData()
@@ -422,9 +426,6 @@ class GranularEulerReader(Reader):
         if not table.header.has_box:
             _set_box(table, grids)
         table.add_header(output.GetFieldData())
-
-    def _threads(self) -> dict[str, Any]:
-        return {"threads": self.values["Threads"]} if self.values.get("Threads") else {}
 
     @staticmethod
     def _asked(info: Any, whole: list[int]) -> list[int]:

@@ -54,6 +54,11 @@ class Rows:
         """Keeps some rows."""
         self.arrays = {name: values[mask] for name, values in self.arrays.items()}
 
+    def leave_out(self, ghosts: Any) -> None:
+        """Leaves out the rows that another rank has, by an array of ghosts, if there is one."""
+        if ghosts:
+            self.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+
     def __len__(self) -> int:
         return len(next(iter(self.arrays.values()), ()))
 
@@ -207,6 +212,8 @@ class Writer(VTKPythonAlgorithmBase):
                                 given = self.format()
                                 given.progress, given.notice = calls.progress, calls.notice
                                 library.granular_create(c.name_bytes(self._path), c.byref(given), c.byref(pointer))
+                                for run in self._runs():
+                                    library.granular_add_input(pointer, run._open())
                             self._write_frame(pointer, parts, number, time, step)
                     except Exception as error:  # noqa: BLE001 (raised on all ranks)
                         failure = error
@@ -263,8 +270,6 @@ class Writer(VTKPythonAlgorithmBase):
         box = self.box(facts)
         if box is not None:
             content.box = ctypes.pointer(box)
-        for run in self._runs():
-            c.library().granular_add_input(pointer, run._open())
         c.library().granular_write(pointer, c.byref(content))
 
     @staticmethod
@@ -311,9 +316,7 @@ class GranularDumpWriter(Writer):
         if data.GetPoints():
             rows.arrays["points"] = vtk_to_numpy(data.GetPoints().GetData()).reshape(-1, 3)
         rows.see(data.GetPointData(), count)
-        ghosts = data.GetPointGhostArray()
-        if ghosts:
-            rows.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+        rows.leave_out(data.GetPointGhostArray())
         return rows
 
     def format(self) -> c.Format:
@@ -416,8 +419,7 @@ class GranularEulerWriter(Writer):
         else:
             raise c.Error(f"{c.shown(self._path)}: expected points or a vtkImageData of cells to write, got a {data.GetClassName()}")
         rows.see(attributes, len(rows.arrays["points"]))
-        if ghosts:
-            rows.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+        rows.leave_out(ghosts)
         return rows
 
 
@@ -448,9 +450,7 @@ class GranularDecompositionWriter(Writer):
             array = next(filter(None, map(data.GetCellData().GetArray, own)), None)
             if array:
                 rows.arrays[name] = vtk_to_numpy(array)
-        ghosts = data.GetCellGhostArray()
-        if ghosts:
-            rows.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
+        rows.leave_out(data.GetCellGhostArray())
         return rows
 
     def box(self, facts: dict[str, Any]) -> c.CBox | None:
