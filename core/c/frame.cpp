@@ -183,10 +183,8 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
   {
     arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),
       find_known("x1", known) });
-    for (int number = 2; table.schema.find_array(length_name) >= 0; ++number)
-    {
-      length_name = "length_" + std::to_string(number);
-    }
+    length_name = free_name(
+      "length", [&](const std::string& name) { return table.schema.find_array(name) >= 0; });
     arrays.push_back({ length_name.c_str(), ValueType::Float64, 1, table.lines.lengths.data(),
       find_known("length", known) });
   }

@@ -140,8 +140,8 @@ for ending in ("csv", "npz"):
     granular("convert", os.path.join(ODD, "no_coordinates.dump"), f"out_*.{ending}")
 assert open("out_10.csv", encoding="ascii").read() == "id,type,radius,c_pe\n1,1,0.5,3.5\n2,2,0.4,-2.0\n"
 
-# three frames of 110 rows, one behind the other
+# three frames of 10 rows, one behind the other
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     run = vg.open(os.path.join(ODD, "no_headers_ids.dump"), column_names="id x y z radius")
-assert run.rows.tolist() == [110] * 3 and all(sorted(frame["id"].tolist()) == list(range(1, 111)) for frame in run)
+assert run.rows.tolist() == [10] * 3 and all(sorted(frame["id"].tolist()) == list(range(1, 11)) for frame in run)

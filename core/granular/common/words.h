@@ -62,6 +62,18 @@ std::string join_words(const List& list, std::string_view between = " ", const W
   return text;
 }
 
+/// Returns a name that is not taken: `name`, or else name_2, name_3 and so on.
+template <class IsTaken>
+std::string free_name(const std::string& name, const IsTaken& is_taken)
+{
+  std::string free = name;
+  for (int number = 2; is_taken(free); ++number)
+  {
+    free = name + "_" + std::to_string(number);
+  }
+  return free;
+}
+
 /// Returns a text in quotes, shortened for a message; unprintable bytes become '?'.
 inline std::string quoted(std::string_view text)
 {

@@ -109,7 +109,7 @@ class Reader(VTKPythonAlgorithmBase):
             self._run = None
             if self._opened and self._opened[0] != self._paths:
                 self._told.forget()
-            self._run = Run(self._paths, options, self._progress, ranks_of_paraview(), self._told.of_frames)
+            self._run = Run(self._paths, options, self._progress, ranks_of_paraview(), self._told.warn)
             self._opened = list(self._paths), options
         elif self._stale:
             self._run.refresh(self._progress)
@@ -204,7 +204,7 @@ class Reader(VTKPythonAlgorithmBase):
         asked = {**self._given(FRAME), **piece}
         if not points:
             asked.pop("periodic_lines", None)
-        handle = run._read(number, names, bool(table), asked, self._progress, self._told.of_rows, ranges=True)
+        handle = run._read(number, names, bool(table), asked, self._progress, self._told.warn, ranges=True)
         return Table(handle, lines and asked.get("periodic_lines") == "split", asked.get("precision") == "single")
 
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
@@ -295,7 +295,7 @@ class GranularDecompositionReader(Reader):
 
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         # each rank reads all, and keeps its piece
-        table = Table(run._read(number, None, False, {}, self._progress, self._told.of_rows))
+        table = Table(run._read(number, None, False, {}, self._progress, self._told.warn))
         grid, known = outputs[0], {name: vtk_to_numpy(array) for name, array in table.arrays.items()}
         table.add_header(grid.GetFieldData())
         if "nlocal" in known:
@@ -346,7 +346,7 @@ class GranularEulerReader(Reader):
 
     def _grids(self, run: Run, table: Table) -> list[c.Grid]:
         library, count = c.library(), c.c_size_t()
-        with c.Calls(None, self._told.of_rows) as calls:
+        with c.Calls(None, self._told.warn) as calls:
             library.granular_grids(table.handle, calls.notice, None, None, 0, c.byref(count))
         grids = (c.Grid * max(1, count.value))()
         library.granular_grids(table.handle, c.NOTICE(), None, grids, count.value, c.byref(count))
@@ -394,7 +394,7 @@ class GranularEulerReader(Reader):
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         # each rank reads all, and keeps its part
         output, info = outputs[0], self.GetOutputInformation(0)
-        table = Table(run._read(number, ["points", *self.chosen(run, number)], False, self._given(FRAME), self._progress, self._told.of_rows))
+        table = Table(run._read(number, ["points", *self.chosen(run, number)], False, self._given(FRAME), self._progress, self._told.warn))
         grids = self._grids(run, table) if self._is_image() else []
         arrays = {name: vtk_to_numpy(array) for name, array in table.arrays.items()}
         count = table.points.GetNumberOfPoints()

@@ -25,7 +25,7 @@ class Told:
 
     def __init__(self, algorithm: Any):
         self._algorithm = algorithm
-        self._known: set[tuple[str, str, str]] = set()
+        self._known: set[str] = set()
         self._kept: list[str] = []
         self._watched: Any = None
 
@@ -40,24 +40,11 @@ class Told:
         """Begins anew, for other files."""
         self._known.clear()
 
-    def of_frames(self, remark: Remark) -> None:
-        """Takes a remark on a place in a file, which is new for each line."""
-        self._take(remark, str(remark.line), remark.topic or remark.text)
-
-    def of_rows(self, remark: Remark) -> None:
-        """Takes a remark on a column, or on all rows, which holds for the next frames, too."""
-        self._take(remark, remark.column, remark.topic or ("" if remark.column else remark.text))
-
-    def _take(self, remark: Remark, about: str, what: str) -> None:
-        key = remark.path, about, what
-        if key not in self._known:
-            self._known.add(key)
-            self._kept.append(str(remark))
-
-    def warn(self, text: str) -> None:
-        """Takes a warning of this reader."""
-        if ("", "", text) not in self._known:
-            self._known.add(("", "", text))
+    def warn(self, remark: Remark | str) -> None:
+        """Takes a warning. The library tells each once a run; here it is once, though the run is opened again."""
+        text = str(remark)
+        if text not in self._known:
+            self._known.add(text)
             self._kept.append(text)
 
     def tell(self) -> None:

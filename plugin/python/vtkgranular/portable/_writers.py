@@ -189,7 +189,7 @@ class Writer(VTKPythonAlgorithmBase):
             raise c.Error(f"{c.shown(self._path)}: expected a name without '%': one file holds the rows of all ranks")
         library, pointer = c.library(), c.c_void_p()
         frames, number = self._frames(), 0
-        calls = c.Calls(self._progress, self._told.of_rows)
+        calls = c.Calls(self._progress, self._told.warn)
         try:
             while True:
                 own: Any = None

@@ -3,6 +3,8 @@
 
 #include "private/arrays/arrays.h"
 
+#include "granular/common/words.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -28,12 +30,8 @@ namespace vtkGranularPrivate
 std::string LengthName(vtkFieldData* fields)
 {
   auto* columns = vtkStringArray::SafeDownCast(fields->GetAbstractArray("Columns"));
-  std::string name = "length";
-  for (int number = 2; columns && columns->LookupValue(name) >= 0; ++number)
-  {
-    name = "length_" + std::to_string(number);
-  }
-  return name;
+  return granular::free_name("length",
+    [columns](const std::string& name) { return columns && columns->LookupValue(name) >= 0; });
 }
 
 void FillRows(vtkTable* rows, granular::Table& frame)
@@ -106,18 +104,14 @@ void AddRows(vtkPolyData* output, vtkTable* rows, const granular::Lines& lines, 
     {
       continue;
     }
-    const std::string name = own;
-    int number = 2;
-    while (rows->GetColumnByName((name + "_" + std::to_string(number)).c_str()))
-    {
-      ++number;
-    }
+    const std::string name = granular::free_name(
+      own, [rows](const std::string& each) { return rows->GetColumnByName(each.c_str()); });
     const auto ofRows = std::exchange(array, vtk::TakeSmartPointer(array->NewInstance()));
     array->DeepCopy(ofRows);
     data->AddArray(array); // in its place
-    array->SetName((name + "_" + std::to_string(number)).c_str());
+    array->SetName(name.c_str());
     notices.push_back({ where,
-      "lines have an array '" + name + "' of their own: that of the file is '" + array->GetName() +
+      std::string("lines have an array '") + own + "' of their own: that of the file is '" + name +
         "'" });
   }
 }
