@@ -37,6 +37,10 @@ def main():
         for key, value in properties.items():
             found = getattr(loaded[name], key)
             assert (list(found) if isinstance(value, list) else found) == value, (name, key, found)
+    dump = loaded["GranularDumpReader"]
+    dump.UpdatePipeline()
+    arrays = dump.GetClientSideObject().GetOutput().GetPointData()
+    assert [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())] == ["id"], arrays
 
 
 if __name__ == "__main__":

@@ -12,7 +12,8 @@ ArrayChoice::ArrayChoice() = default;
 ArrayChoice::~ArrayChoice() = default;
 
 // VTK looks at all names for each that is added by itself. The list is made anew: those that differ from most are known to it before,
-// and keep their state, the others take that of most. Nobody is told, as AddArray tells nobody.
+// and keep their state, the others take that of most. Nobody is told, as AddArray tells nobody. State files, and users who name the
+// columns of a binary file, choose from names that are not offered yet, and leave the old ones off: new ones that were not chosen are off.
 void ArrayChoice::Offer(const std::vector<granular::OfferedArray>& arrays)
 {
   const bool chosen = !this->AreAllOn();
@@ -23,6 +24,15 @@ void ArrayChoice::Offer(const std::vector<granular::OfferedArray>& arrays)
     offered.emplace(array.name, array.is_usual);
   }
   std::map<std::string, bool, std::less<>> states = this->GetStates();
+  bool isChosenAhead = false;
+  bool isOffElsewhere = false;
+  for (const auto& [name, isOn] : states)
+  {
+    const bool isOffered = offered.count(name) != 0;
+    isChosenAhead |= isOn && isOffered && this->Names.count(name) == 0;
+    isOffElsewhere |= !isOn && !isOffered;
+  }
+  const bool chosenByName = (this->Follow && chosen) || (isChosenAhead && isOffElsewhere);
   std::vector<std::string> kept;
   for (int i = 0; i < this->Selection->GetNumberOfArrays(); ++i)
   {
@@ -42,7 +52,7 @@ void ArrayChoice::Offer(const std::vector<granular::OfferedArray>& arrays)
   {
     const std::string& name = array.name;
     const auto before = this->Gone.find(name);
-    const bool isOn = array.is_usual && !(this->Follow && chosen);
+    const bool isOn = array.is_usual && !chosenByName;
     if (states.emplace(name, before == this->Gone.end() ? isOn : before->second).second)
     {
       kept.push_back(name);
