@@ -17,6 +17,7 @@ from .. import _library as c
 from .._options import FILES, FRAME, Option
 from .._run import Run, kind_of
 from ._arrays import Table, cells, numbers, texts
+from ._choice import ArrayChoice
 from ._ranks import ranks_of_paraview
 from ._told import Told
 
@@ -45,9 +46,7 @@ class Reader(VTKPythonAlgorithmBase):
         self._stale = False
         self._message = ""
         self._told = Told(self)
-        self._selections = {name: vtkDataArraySelection() for name in ("Points", "Cells")}
-        for selection in self._selections.values():
-            selection.AddObserver("ModifiedEvent", lambda *_: self.Modified())
+        self._choices = {name: ArrayChoice(self.Modified, self.kind == "restart") for name in ("Points", "Cells")}
 
     # ---- properties ----
     def AddFileName(self, name: str) -> None:
@@ -67,10 +66,10 @@ class Reader(VTKPythonAlgorithmBase):
         return self._message
 
     def GetPointDataArraySelection(self) -> vtkDataArraySelection:
-        return self._selections["Points"]
+        return self._choices["Points"].selection
 
     def GetCellDataArraySelection(self) -> vtkDataArraySelection:
-        return self._selections["Cells"]
+        return self._choices["Cells"].selection
 
     def CanReadFile(self, name: str) -> int:
         return int(kind_of(name) in self.kinds())
@@ -124,11 +123,7 @@ class Reader(VTKPythonAlgorithmBase):
 
     def _offer(self, run: Run) -> None:
         for table, name in enumerate(self.tables):
-            offered, selection = run._columns(c.EVERY_FRAME, bool(table)), self._selections[name]
-            for columns, is_usual in ((offered.usual, True), (offered.others, False)):
-                for column in columns:
-                    if not selection.ArrayExists(column.name):
-                        selection.AddArray(column.name, is_usual)
+            self._choices[name].offer(_columns(run, c.EVERY_FRAME, table))
 
     # ---- the pipeline ----
     def FillOutputPortInformation(self, port: int, info: Any) -> int:
@@ -191,16 +186,13 @@ class Reader(VTKPythonAlgorithmBase):
 
         return self._guarded(work, outputs)
 
-    def chosen(self, run: Run, number: int, table: int = 0) -> list[str]:
-        """Returns the arrays of a table of a frame that are on, and usual ones that the list does not have."""
-        selection, offered = self._selections[self.tables[table]], run._columns(number, bool(table))
-        return [column.name for columns, is_usual in ((offered.usual, 1), (offered.others, 0)) for column in columns
-                if (selection.ArrayIsEnabled(column.name) if selection.ArrayExists(column.name) else is_usual)]
-
     def read(self, run: Run, number: int, piece: dict[str, int], table: int = 0, points: bool = True) -> Table:
         """Reads the chosen arrays of a table of a frame."""
         lines = self.tables[table] == "Cells"
-        names = [*(["ends"] if lines and points else ["points"] if points else []), *self.chosen(run, number, table)]
+        choice, columns = self._choices[self.tables[table]], _columns(run, number, table)
+        for name in choice.missing() - dict(columns).keys():
+            self._told.warn(f"{c.shown(run._place_of(number)[1][1])}: no frame has the array '{name}' asked for")
+        names = [*(["ends"] if lines and points else ["points"] if points else []), *choice.choose(columns)]
         asked = {**self._given(FRAME), **piece}
         if not points:
             asked.pop("periodic_lines", None)
@@ -210,6 +202,12 @@ class Reader(VTKPythonAlgorithmBase):
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         """Fills the outputs with a frame."""
         raise NotImplementedError
+
+
+def _columns(run: Run, number: int, table: int) -> list[tuple[str, bool]]:
+    """Returns the names of the arrays of a table of a frame, or of every frame, and whether each is usual."""
+    offered = run._columns(number, bool(table))
+    return [(column.name, is_usual) for columns, is_usual in ((offered.usual, True), (offered.others, False)) for column in columns]
 
 
 def _part(count: int, piece: dict[str, int]) -> tuple[int, int]:
@@ -394,7 +392,7 @@ class GranularEulerReader(Reader):
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         # each rank reads all, and keeps its part
         output, info = outputs[0], self.GetOutputInformation(0)
-        table = Table(run._read(number, ["points", *self.chosen(run, number)], False, self._given(FRAME), self._progress, self._told.warn))
+        table = Table(run._read(number, ["points", *self._choices["Points"].choose(_columns(run, number, 0))], False, self._given(FRAME), self._progress, self._told.warn))
         grids = self._grids(run, table) if self._is_image() else []
         arrays = {name: vtk_to_numpy(array) for name, array in table.arrays.items()}
         count = table.points.GetNumberOfPoints()
