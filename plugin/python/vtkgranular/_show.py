@@ -58,7 +58,7 @@ def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
         source.UpdatePipeline(max(times))
         array = source.PointData[name]
     found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
-    names = ", ".join(source.PointData.keys())
+    names = ", ".join(sorted(source.PointData.keys()))
     if times:
         source.UpdatePipeline(view.ViewTime)
     if not array and names:
