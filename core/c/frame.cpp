@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -108,6 +109,28 @@ std::vector<RegularGrid> find_grids(const granular_frame& frame, Notices& notice
   catch (const UnsupportedError& error)
   {
     throw UnsupportedError(error.text(), frame.where);
+  }
+}
+
+void repeat_rows(Table& table)
+{
+  const std::vector<std::int64_t>& rows = table.lines.rows;
+  const auto repeat = [&](Block& block)
+  {
+    const std::size_t bytes = block.bytes() / static_cast<std::size_t>(table.rows);
+    Block made(rows.size() * bytes, block.pool());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      std::memcpy(static_cast<char*>(made.data()) + i * bytes,
+        static_cast<const char*>(block.data()) + static_cast<std::size_t>(rows[i]) * bytes, bytes);
+    }
+    block = std::move(made);
+  };
+  if (!rows.empty())
+  {
+    std::ranges::for_each(table.arrays, repeat, &TableArray::block);
+    repeat(table.lines.lengths);
+    table.rows = table.lines.count;
   }
 }
 

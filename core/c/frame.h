@@ -75,6 +75,9 @@ inline std::string text_of(const char* text)
   return text == nullptr ? std::string() : std::string(text);
 }
 
+/// Gives a table whose lines are parts of rows as many rows.
+void repeat_rows(granular::Table& table);
+
 /// Returns an array by its name. Throws granular::ArgumentError that lists those there are.
 const FrameArray& find_array(const granular_frame& frame, std::string_view name);
 
@@ -102,6 +105,7 @@ struct WriteView
   WriteView(const granular_content& content, RowKind kind);
 
   granular::FrameView view;
+  std::optional<granular::ArrayView> ends; ///< of lines, as they were given
 
 private:
   void take_header(const granular_frame_header& header);
@@ -109,7 +113,6 @@ private:
   void add(std::string name, granular::ValueType type, int components, const void* data,
     std::span<const char* const> words);
 
-  std::optional<granular::ArrayView> ends_;
   std::vector<std::unique_ptr<std::vector<std::string>>> texts_; ///< words row by row
 };
 }

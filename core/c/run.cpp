@@ -13,7 +13,6 @@
 #include "granular/parallel/executor.h"
 
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -152,29 +151,6 @@ using namespace granular_c;
 
 namespace
 {
-/// Gives a table whose lines are parts of rows as many rows.
-void repeat_rows(Table& table)
-{
-  const std::vector<std::int64_t>& rows = table.lines.rows;
-  const auto repeat = [&](Block& block)
-  {
-    const std::size_t bytes = block.bytes() / static_cast<std::size_t>(table.rows);
-    Block made(rows.size() * bytes, block.pool());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      std::memcpy(static_cast<char*>(made.data()) + i * bytes,
-        static_cast<const char*>(block.data()) + static_cast<std::size_t>(rows[i]) * bytes, bytes);
-    }
-    block = std::move(made);
-  };
-  if (!rows.empty())
-  {
-    std::ranges::for_each(table.arrays, repeat, &TableArray::block);
-    repeat(table.lines.lengths);
-    table.rows = table.lines.count;
-  }
-}
-
 /// Frames with the timestep of an earlier one in the same file.
 std::int64_t count_repeated(const FileIndex& file)
 {

@@ -181,7 +181,7 @@ WriteView::WriteView(const granular_content& content, RowKind kind)
   {
     throw ArgumentError("expected an array 'points' with the positions of the particles, got none");
   }
-  if (ends_ && (view.find("position1") != nullptr || view.find("position2") != nullptr))
+  if (ends && (view.find("position1") != nullptr || view.find("position2") != nullptr))
   {
     throw ArgumentError("expected 'ends', or 'position1' and 'position2', got both");
   }
@@ -229,9 +229,9 @@ void WriteView::finish(RowKind kind)
   {
     return;
   }
-  if (ends_)
+  if (ends)
   {
-    add_ends(view, *ends_);
+    add_ends(view, *ends);
   }
   std::erase_if(view.arrays,
     [&](const ArrayView& array)
@@ -270,7 +270,7 @@ void WriteView::add(std::string name, ValueType type, int components, const void
   }
   else if (array.name == ends_name)
   {
-    ends_ = std::move(array);
+    ends = std::move(array);
   }
   else
   {

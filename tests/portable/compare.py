@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The portable plugin makes what the compiled one makes, and writes the same bytes.
 
-compare.py PVPYTHON PLUGIN [FILE...] compares all that outputs.py prints of files with either plugin; without FILEs of one of each form.
+compare.py readers PVPYTHON PLUGIN [FILE...] compares all that outputs.py writes of files with either plugin; without FILEs of one of each
+form. compare.py filters PVBATCH PLUGIN MPIEXEC -n compares what filters.py writes, on one to three ranks.
 """
 import concurrent.futures
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -24,10 +26,10 @@ def files_of(names):
         yield from sorted(os.path.join(path, each) for each in os.listdir(path)) if os.path.isdir(path) else [path]
 
 
-def run(pvpython, plugin, script, *arguments):
+def run(program, plugin, script, *arguments):
     environment = {name: value for name, value in os.environ.items() if name != "PV_PLUGIN_PATH"}
     environment["PYTHONPATH"] = os.pathsep.join([os.path.join(HERE, "site"), environment.get("PYTHONPATH", "")])
-    done = subprocess.run([pvpython, os.path.join(HERE, script), plugin, *arguments], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run([*program, os.path.join(HERE, script), plugin, *arguments], env=environment, capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"{script} with {plugin}: {done.stdout[-2000:]}{done.stderr[-4000:]}")
 
@@ -44,25 +46,37 @@ def differences(one, other, place=""):
         yield f"{place}: {one!r} by the compiled plugin, {other!r} by the portable one"
 
 
-def compare(pvpython, compiled, files):
-    made = [os.path.join(OUTPUT, name) for name in ("compiled", "portable")]
+def contents_of(path):
+    with open(path, "rb") as file:
+        return json.load(file) if path.endswith(".json") else file.read()
+
+
+def compare(program, compiled, script, arguments, name):
+    """Runs a script with either plugin, and compares all files that it writes."""
+    made = [os.path.join(OUTPUT, name, which) for which in ("compiled", "portable")]
     for folder in made:
-        os.makedirs(folder, exist_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
     with concurrent.futures.ThreadPoolExecutor() as pool:
-        list(pool.map(lambda plugin, folder: run(pvpython, plugin, "outputs.py", folder, *files), (compiled, PORTABLE), made))
-    outputs = []
-    for folder in made:
-        with open(os.path.join(folder, "outputs.json"), encoding="utf-8") as file:
-            outputs.append(json.load(file))
-    found = list(differences(*outputs))
-    names = [sorted(name for name in os.listdir(folder) if name != "outputs.json") for folder in made]
-    assert names[0] == names[1] and names[0], names
-    for name in names[0]:
-        contents = [open(os.path.join(folder, name), "rb").read() for folder in made]
-        if contents[0] != contents[1]:
-            found.append(f"{name}: {len(contents[0])} bytes by the compiled plugin, {len(contents[1])} by the portable one")
-    assert not found, f"{len(found)} differences:\n" + "\n".join(text[:500] for text in found[:20])
-    print(f"{len(outputs[0])} settings of {len(files)} files, {len(names[0])} written files")
+        list(pool.map(lambda plugin, folder: run(program, plugin, script, folder, *arguments), (compiled, PORTABLE), made))
+    names = [sorted(os.listdir(folder)) for folder in made]
+    found = [f"written with one plugin alone: {each}" for each in {*names[0]} ^ {*names[1]}]
+    for each in sorted({*names[0]} & {*names[1]}):
+        one, other = (contents_of(os.path.join(folder, each)) for folder in made)
+        if isinstance(one, bytes):
+            found += [f"{each}: {len(one)} bytes by the compiled plugin, {len(other)} by the portable one"] if one != other else []
+        else:
+            found += differences(one, other, each)
+    assert names[0] and not found, f"{name}: {len(found)} differences:\n" + "\n".join(text[:500] for text in found[:20])
+    print(f"{name}: {len(names[0])} files")
 
 
-compare(sys.argv[1], sys.argv[2], sys.argv[3:] or list(files_of(FORMS)))
+def main(what, program, plugin, *rest):
+    if what == "readers":
+        compare([program], plugin, "outputs.py", rest or list(files_of(FORMS)), what)
+        return
+    for ranks, mode in ((1, []), (2, []), (3, []), (3, ["--sym"])):
+        compare([*rest, str(ranks), program, "--dr", *mode], plugin, "filters.py", [], f"filters_{ranks}{''.join(mode)}")
+
+
+main(*sys.argv[1:])

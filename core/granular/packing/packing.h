@@ -43,6 +43,17 @@ struct PackingRequest
   bool ranges = false; ///< true: find the ranges of points and arrays
 };
 
+/// Particles that are made where neither their number nor a box is given.
+inline constexpr std::int64_t particles_without_box = 1000;
+
+/// Returns an arrangement or choice of radii by its number in properties. Throws LimitError for others, as in states of earlier versions.
+Arrangement arrangement_of(std::int64_t number);
+RadiusChoice::Kind radii_of(std::int64_t number);
+
+/// Returns the box of properties: its corner, lengths and tilts xy xz yz; nothing for lengths of 0. Throws LimitError for tilts without
+/// lengths, and lengths that are not all greater than 0.
+std::optional<Box> find_box(const Vector3& origin, const Vector3& lengths, const Vector3& tilts);
+
 class PackingPlan;
 
 /// Makes particles that do not overlap, as a frame of timestep 0 with the columns id type x y z radius vx vy vz; a chain also
@@ -60,6 +71,9 @@ class PackingPlan;
 /// more than 10^7 of them;
 /// Cancelled; std::bad_alloc.
 Table make_packing(const PackingRequest& request, Progress& progress);
+
+/// Makes particles, and, if the factor is not 0, bonds as lines: see make_bonds. Throws what both throw; MemoryError that says what helps.
+Tables make_packing(const PackingRequest& request, double bond_factor, PartialProgress& progress);
 
 /// Makes the piece of a plan. Every rank has the whole plan.
 Table make_packing(const PackingPlan& plan, Progress& progress);

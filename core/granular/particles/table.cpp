@@ -23,6 +23,13 @@ TableArray* find_array(Table& table, std::string_view name)
   return found == table.arrays.end() ? nullptr : &*found;
 }
 
+void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block)
+{
+  const std::vector<int> no_columns(static_cast<std::size_t>(components), -1);
+  ArrayInfo info{ .name = std::string(name), .type = type, .columns = no_columns };
+  frame.arrays.push_back({ std::move(info), std::move(block), {}, {} });
+}
+
 FrameRanges::FrameRanges(const Table& frame)
 {
   for (const TableArray& array : frame.arrays)

@@ -9,6 +9,7 @@
 #include "granular/memory/value_range.h"
 #include "granular/particles/frame_view.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -67,6 +68,18 @@ struct Tables
 
 /// Returns the array of a table that has a name, or null.
 TableArray* find_array(Table& table, std::string_view name);
+
+/// Returns values in memory that can be given away.
+template <class Value>
+Block block_of(const std::vector<Value>& values)
+{
+  Block block(values.size() * sizeof(Value));
+  std::ranges::copy(values, static_cast<Value*>(block.data()));
+  return block;
+}
+
+/// Adds an array that no columns of a file make.
+void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block);
 
 /// Returns true if an array holds doubles, std::int64_t or std::int32_t, as many in a row.
 template <class Value>

@@ -184,17 +184,5 @@ std::vector<OfferedArray> arrays_of(const ColumnSchema& schema, std::span<const 
 /// Reads cells as a table: Kind::read for kinds that have cells.
 Tables read_cells(const RunPlace& place, const Request& request, const Offer& offer,
   Communicator& ranks, Notices& notices, Progress& progress);
-
-/// Returns values in memory that can be given away.
-template <class Value>
-Block block_of(const std::vector<Value>& values)
-{
-  Block block(values.size() * sizeof(Value));
-  std::ranges::copy(values, static_cast<Value*>(block.data()));
-  return block;
-}
-
-/// Adds an array that no columns of a file make.
-void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block);
 }
 #endif

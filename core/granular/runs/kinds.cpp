@@ -134,11 +134,4 @@ Tables read_cells(const RunPlace& place, const Request& request, const Offer&, C
   }
   return frame;
 }
-
-void add_array(Table& frame, std::string_view name, ValueType type, int components, Block block)
-{
-  const std::vector<int> no_columns(static_cast<std::size_t>(components), -1);
-  ArrayInfo info{ .name = std::string(name), .type = type, .columns = no_columns };
-  frame.arrays.push_back({ std::move(info), std::move(block), {}, {} });
-}
 }

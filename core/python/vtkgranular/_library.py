@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The C library behind runs and frames, by ctypes: the declarations of granular.h."""
+"""The C library behind runs, frames and filters, by ctypes: the declarations of granular.h and granular_filters.h."""
 from __future__ import annotations
 
 import ctypes
@@ -158,6 +158,20 @@ class Content(Structure):
                 ("header", POINTER(FrameHeader))]
 
 
+class Setting(Structure):
+    _fields_ = [("name", c_char_p), ("text", c_char_p), ("numbers", POINTER(c_double)), ("count", c_size_t)]
+
+
+INPUT = CFUNCTYPE(c_int, c_size_t, c_size_t, POINTER(POINTER(Content)), POINTER(c_char_p), c_void_p)
+NO_TIMESTEP, GHOSTS, MOST_RESULTS = -2**63, "vtkGhostType", 8
+
+
+class Task(Structure):
+    _fields_ = [("size", c_size_t), ("filter", c_char_p), ("settings", POINTER(Setting)), ("setting_count", c_size_t), ("input", INPUT),
+                ("frames", c_size_t), ("piece", c_int), ("pieces", c_int), ("ranks", POINTER(Ranks)), ("threads", c_int),
+                ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+
+
 _NAMES = POINTER(c_char_p)
 _FUNCTIONS = {
     "granular_find_kind": (c_char_p, POINTER(c_int)),
@@ -181,6 +195,7 @@ _FUNCTIONS = {
     "granular_begin_file": (c_char_p, POINTER(c_void_p)),
     "granular_hold_file": (c_void_p, c_int),
     "granular_finish_files": (POINTER(c_void_p), c_size_t, c_int),
+    "granular_apply": (POINTER(Task), POINTER(c_void_p), c_size_t, POINTER(c_size_t)),
     "granular_find_files": (_NAMES, c_size_t, POINTER(c_void_p)),
 }
 _OTHERS = {  # without a status: result and arguments
@@ -188,6 +203,7 @@ _OTHERS = {  # without a status: result and arguments
     "granular_request_init": (None, POINTER(Request)),
     "granular_format_init": (None, POINTER(Format)),
     "granular_content_init": (None, POINTER(Content)),
+    "granular_task_init": (None, POINTER(Task)),
     "granular_close": (None, c_void_p),
     "granular_release": (None, c_void_p),
     "granular_abandon": (None, c_void_p),

@@ -38,7 +38,7 @@ def _c_arrays(arrays: Mapping[str, Any]) -> tuple[Any, int, list[Any]]:
         if name == "points" and values.ndim == 3:
             name = "ends"
         if name == "ends" and values.ndim > 1 and math.prod(values.shape[1:]) == 6:
-            values = values.astype(float).reshape(len(values), 6)
+            values = values.astype(float, copy=False).reshape(len(values), 6)
         if name == "points" and values.dtype.kind in "iub":
             values = values.astype(float)
         if values.ndim not in (1, 2):

@@ -13,6 +13,7 @@
 #include "granular/grid/sphere_box.h"
 #include "granular/lines/fetch_particles.h"
 #include "granular/numbers/number_print.h"
+#include "granular/particles/known_arrays.h"
 #include "granular/particles/point_forms.h"
 #include "granular/paths/compare_particles.h"
 #include "granular/paths/fragments.h"
@@ -56,18 +57,19 @@ using Rows = std::vector<std::int64_t>;
 /**
  * Returns the names of the arrays that both frames have alike.
  */
-std::vector<std::string> NamesOfBoth(const KnownArrays& current, const KnownArrays& reference)
+std::vector<std::string> NamesOfBoth(
+  const granular::KnownArrays& current, const granular::KnownArrays& reference)
 {
-  const KnownArrays& known = current.HasParticles ? current : reference;
+  const granular::KnownArrays& known = current.has_particles ? current : reference;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < known.Names.size(); ++i)
+  for (std::size_t i = 0; i < known.names.size(); ++i)
   {
-    const auto other = std::ranges::find(reference.Names, known.Names[i]);
-    const bool both = other != reference.Names.end() &&
-      reference.Sizes[static_cast<std::size_t>(other - reference.Names.begin())] == known.Sizes[i];
-    if (both || !reference.HasParticles)
+    const auto other = std::ranges::find(reference.names, known.names[i]);
+    const bool both = other != reference.names.end() &&
+      reference.sizes[static_cast<std::size_t>(other - reference.names.begin())] == known.sizes[i];
+    if (both || !reference.has_particles)
     {
-      names.push_back(known.Names[i]);
+      names.push_back(known.names[i]);
     }
   }
   return names;
@@ -277,8 +279,9 @@ private:
     const granular::FrameView& reference = this->Particles[1]->View;
     granular::ParticleCompareRequest request;
     request.threads = this->Threads;
-    request.differences = NamesIn(this->Self->Differences,
-      NamesOfBoth(ShareArrays(view, this->Group), ShareArrays(reference, this->Group)));
+    request.differences = granular::names_in(this->Self->Differences,
+      NamesOfBoth(
+        granular::share_arrays(view, this->Group), granular::share_arrays(reference, this->Group)));
     this->Progress.set_part(0.1, 0.6);
     this->Compared =
       granular::compare_particles(view, reference, request, this->Group, this->Progress);

@@ -118,7 +118,7 @@ private:
     }
     this->Ghosts.assign(
       static_cast<std::size_t>(this->View.rows), granular::FrameView::duplicate_row);
-    for (const vtkIdType tuple : rows.FindBegins())
+    for (const std::int64_t tuple : rows.FindBegins())
     {
       this->Ghosts[static_cast<std::size_t>(tuple)] = 0;
     }
@@ -166,7 +166,7 @@ private:
     this->Ends.resize(static_cast<std::size_t>(6 * this->View.rows));
     const std::vector<double> points =
       rows.Count() > 0 ? ReadAbsolutePoints(lines) : std::vector<double>();
-    const std::vector<vtkIdType> parts[] = { rows.FindBegins(), rows.FindEnds() };
+    const std::vector<std::int64_t> parts[] = { rows.FindBegins(), rows.FindEnds() };
     for (std::size_t end = 0; end < 2; ++end)
     {
       if (this->View.find(ArraysOfEnds[end]))

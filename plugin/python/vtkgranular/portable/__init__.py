@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Readers and writers for any ParaView, in Python over the C library: what plugin/portable/Granular.py shows to ParaView."""
+"""Readers, writers, sources and filters for any ParaView, in Python over the C library: what plugin/portable/Granular.py shows to ParaView."""
 from __future__ import annotations
 
+from ._lines import LINES
 from ._proxies import define
 from ._readers import READERS
+from ._sources import SOURCES
 from ._writers import WRITERS
 
-_classes = {**READERS, **WRITERS}
+_classes = {**READERS, **WRITERS, **SOURCES, **LINES}
 definitions = define(_classes)
 globals().update({made.__name__: made for made in _classes.values()})  # where the definitions say they are

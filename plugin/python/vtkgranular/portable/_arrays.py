@@ -7,7 +7,7 @@ from typing import Any, Iterable
 import numpy
 from vtkmodules import vtkCommonCore as core
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkDataSetAttributes, vtkUnstructuredGrid
 
 from .. import _library as c
 from .._run import _Handle, _to_numpy
@@ -172,6 +172,33 @@ def _row(name: str, values: Iterable[float]) -> Any:
     return numbers(name, numpy.array([list(values)], dtype=float))
 
 
+def take_tuples(array: Any, rows: Any) -> Any:
+    """Returns some tuples of an array as an array of the same kind."""
+    made = array.NewInstance()
+    made.SetName(array.GetName())
+    made.SetNumberOfComponents(array.GetNumberOfComponents())
+    made.CopyComponentNames(array)
+    made.SetNumberOfTuples(len(rows))
+    if array.IsA("vtkDataArray") and array.HasStandardMemoryLayout() and array.GetDataType() != core.VTK_BIT:
+        if len(rows):
+            vtk_to_numpy(made)[:] = vtk_to_numpy(array)[rows]
+        return made
+    ids = core.vtkIdList()
+    for row in rows.tolist():
+        ids.InsertNextId(row)
+    array.GetTuples(ids, made)
+    return made
+
+
+def pass_rows(attributes: Any, count: int, rows: Any, to: Any) -> None:
+    """Adds all arrays but ghosts, with the values of some of so many rows; the arrays themselves where these are all rows in order."""
+    all_rows = len(rows) == count and bool((rows == numpy.arange(count)).all())
+    for i in range(attributes.GetNumberOfArrays()):
+        array = attributes.GetAbstractArray(i)
+        if array.GetName() and array.GetName() != vtkDataSetAttributes.GhostArrayName():
+            to.AddArray(array if all_rows else take_tuples(array, rows))
+
+
 def cells(count: int, size: int) -> vtkCellArray:
     """Returns cells of the same size, of which each has points of its own."""
     made = vtkCellArray()
@@ -179,3 +206,24 @@ def cells(count: int, size: int) -> vtkCellArray:
         kind = numpy.int32 if count * size < 2**31 - 1 else numpy.int64
         made.SetData(numbers(None, numpy.arange(0, count * size + 1, size, dtype=kind)), numbers(None, numpy.arange(count * size, dtype=kind)))
     return made
+
+
+def fill_particles(output: Any, table: Table, form: int = 2) -> None:
+    """Fills an output with particles and their arrays. form: 0 no cells, 1 one with all points, 2 one for each."""
+    output.SetPoints(table.points)
+    rows = output.GetNumberOfPoints()
+    if rows and form:
+        output.SetVerts(cells(*((rows, 1) if form == 2 else (1, rows))))
+    for name, array in table.arrays.items():
+        if name == "id":
+            output.GetPointData().SetPedigreeIds(array)
+        else:
+            output.GetPointData().AddArray(array)
+
+
+def fill_lines(output: Any, table: Table) -> None:
+    """Fills an output with lines and their arrays."""
+    output.SetPoints(table.points)
+    output.SetLines(cells(output.GetNumberOfPoints() // 2, 2))
+    for array in (*table.arrays.values(), *table.drawn.values()):
+        output.GetCellData().AddArray(array)

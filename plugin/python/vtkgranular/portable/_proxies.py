@@ -76,7 +76,7 @@ class Property:
     def __init__(self, element: Any):
         self.name, self.count = element.get("name"), int(element.get("number_of_elements", "1"))
         self.repeats = element.get("repeat_command") == "1"
-        kind = {"IntVectorProperty": int, "DoubleVectorProperty": float}.get(element.tag, str)
+        kind = {"IntVectorProperty": int, "IdTypeVectorProperty": int, "DoubleVectorProperty": float}.get(element.tag, str)
         texts = element.get("default_values", "")
         words = texts.split() if kind is not str else [texts]
         self.kind, self.default = kind, [kind(word) for word in words]

@@ -73,5 +73,10 @@ def share(mine: Any) -> Any:
     return pickle.loads(vtk_to_numpy(array).tobytes())
 
 
+def everyone(mine: Any) -> list[Any]:
+    """Returns the objects of all ranks, by rank, on all ranks."""
+    return share(gather(mine))
+
+
 def _bytes_to_vtk(data: bytes) -> Any:
     return numpy_to_vtk(numpy.frombuffer(data, dtype=numpy.uint8), deep=True)

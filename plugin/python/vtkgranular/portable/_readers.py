@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from typing import Any
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkDataArraySelection, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkCellArray, vtkDataObject, vtkImageData, vtkPartitionedDataSet, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkExtentTranslator
@@ -16,36 +15,31 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 from .. import _library as c
 from .._options import FILES, FRAME, Option
 from .._run import Run, kind_of
-from ._arrays import Table, cells, numbers, texts
+from ._algorithm import Algorithm, asked_output, piece_of
+from ._arrays import Table, cells, fill_lines, fill_particles, numbers, texts
 from ._choice import ArrayChoice
 from ._ranks import ranks_of_paraview
-from ._told import Told
 
 #: What the compiled readers call other values than the library: Double is 1 there.
 _CHOICES = {"PointPrecision": ("single", "double")}
 
 
-class Reader(VTKPythonAlgorithmBase):
-    """Base of the readers: the files, the run behind them, the choice of arrays, and the errors.
+class Reader(Algorithm):
+    """Base of the readers: the files, the run behind them, and the choice of arrays.
 
     kind    of files, as `kind` of vtkgranular.open
-    ports   the types of the outputs
     tables  the selections of arrays: "Points" for those of table 0, "Cells" for those of lines
     """
 
-    kind, ports, tables = "", (), ()
+    kind, tables = "", ()
     presets: dict[int, str] = {}
-    defaults: dict[str, Any] = {}
 
     def __init__(self) -> None:
-        super().__init__(nInputPorts=0, nOutputPorts=len(self.ports), outputType=self.ports[0])
-        self.values = dict(self.defaults)
+        super().__init__()
         self._paths: list[str] = []
         self._run: Run | None = None
         self._opened: Any = None  # with these options
         self._stale = False
-        self._message = ""
-        self._told = Told(self)
         self._choices = {name: ArrayChoice(self.Modified, self.kind == "restart") for name in ("Points", "Cells")}
 
     # ---- properties ----
@@ -61,9 +55,6 @@ class Reader(VTKPythonAlgorithmBase):
     def Refresh(self) -> None:
         self._stale = True
         self.Modified()
-
-    def GetErrorMessage(self) -> str:
-        return self._message
 
     def GetPointDataArraySelection(self) -> vtkDataArraySelection:
         return self._choices["Points"].selection
@@ -95,10 +86,6 @@ class Reader(VTKPythonAlgorithmBase):
             given[option.name] = value
         return given
 
-    def _progress(self, fraction: float) -> bool:
-        self.UpdateProgress(fraction)
-        return not self.GetAbortExecute()
-
     def _open(self) -> Run:
         """Opens the run, unless it is open already, and offers its arrays."""
         if not self._paths:
@@ -126,33 +113,6 @@ class Reader(VTKPythonAlgorithmBase):
             self._choices[name].offer(_columns(run, c.EVERY_FRAME, table))
 
     # ---- the pipeline ----
-    def FillOutputPortInformation(self, port: int, info: Any) -> int:
-        info.Set(vtkDataObject.DATA_TYPE_NAME(), self.ports[port])
-        return 1
-
-    def _guarded(self, work: Callable[[], None], outputs: Any) -> int:
-        """Does a part of an update. An error empties the outputs and is told once."""
-        self._told.watch()
-        try:
-            work()
-        except c.Cancelled:
-            self._message = ""
-            self.SetAbortExecute(0)
-            self.Modified()
-        except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
-            self._message = str(error) or type(error).__name__
-        else:
-            self._message = ""
-            self._told.tell()
-            return 1
-        for port in range(outputs.GetNumberOfInformationObjects()):
-            data = vtkDataObject.GetData(outputs, port)
-            if data:
-                data.Initialize()
-        if self._message:
-            self._told.error(self._message)
-        return 0
-
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
         def work() -> None:
             times = [float(time) for time in self._open().times]
@@ -173,12 +133,10 @@ class Reader(VTKPythonAlgorithmBase):
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
         def work() -> None:
-            run, port = self._open(), max(request.Get(Pipeline.FROM_OUTPUT_PORT()), 0) if request.Has(Pipeline.FROM_OUTPUT_PORT()) else 0
-            info = outputs.GetInformationObject(port)
+            run, info = self._open(), asked_output(request, outputs)
             time = info.Get(Pipeline.UPDATE_TIME_STEP()) if info.Has(Pipeline.UPDATE_TIME_STEP()) else None
             number = 0 if time is None else run.find(time).number
-            pieces = max(info.Get(Pipeline.UPDATE_NUMBER_OF_PIECES()), 1) if info.Has(Pipeline.UPDATE_NUMBER_OF_PIECES()) else 1
-            piece = info.Get(Pipeline.UPDATE_PIECE_NUMBER()) if pieces > 1 else 0
+            piece, pieces = piece_of(info)
             datasets = [vtkDataObject.GetData(outputs, i) for i in range(len(self.ports))]
             self.fill(run, number, {"piece": piece, "pieces": pieces}, datasets)
             for data in datasets:
@@ -222,16 +180,7 @@ class _Particles(Reader):
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         table = self.read(run, number, piece)
         particles, box = outputs[0], outputs[-1]
-        particles.SetPoints(table.points)
-        rows, form = particles.GetNumberOfPoints(), self.values.get("Vertices", 2)
-        if rows and form:
-            particles.SetVerts(cells(*((rows, 1) if form == 2 else (1, rows))))
-        data = particles.GetPointData()
-        for name, array in table.arrays.items():
-            if name == "id":
-                data.SetPedigreeIds(array)
-            else:
-                data.AddArray(array)
+        fill_particles(particles, table, self.values.get("Vertices", 2))
         if piece["piece"] == 0 and not table.fill_box(box):
             self._told.warn(f"{c.shown(run._place_of(number)[1][1])}: the box is not finite and not shown")
         for output in (particles, box):
@@ -253,12 +202,9 @@ class _Particles(Reader):
 
 
 def _fill_lines(lines: Any, table: Table) -> None:
-    """Fills an output with lines and their arrays."""
+    """Fills an output with lines, their arrays and what is known of them."""
     if table.has_lines:
-        lines.SetPoints(table.points)
-        lines.SetLines(cells(lines.GetNumberOfPoints() // 2, 2))
-        for array in (*table.arrays.values(), *table.drawn.values()):
-            lines.GetCellData().AddArray(array)
+        fill_lines(lines, table)
     table.add_header(lines.GetFieldData())
     table.add_columns(lines.GetFieldData())
 

@@ -28,6 +28,8 @@ class Told:
         self._known: set[str] = set()
         self._kept: list[str] = []
         self._watched: Any = None
+        self._topics: set[str] = set()  # of the last request of a filter
+        self._topics_time = 0
 
     def watch(self) -> None:
         """Watches the executive of the algorithm, of which ParaView gives it another one than it has at first."""
@@ -53,6 +55,17 @@ class Told:
         if kept:
             more = [f"and {len(kept) - _MOST} more"] if len(kept) > _MOST else []
             self._say("WarningEvent", "\n".join(kept[:_MOST] + more))
+
+    def tell_topics(self, remarks: list[Remark]) -> None:
+        """Tells each remark as a warning, of each topic once, until it is gone or something upstream is changed, which may be why."""
+        time = self._algorithm.GetExecutive().GetPipelineMTime()
+        before = self._topics if time == self._topics_time else set()
+        self._topics, self._topics_time = set(), time
+        for remark in remarks:
+            topic = remark.topic or str(remark)
+            if topic not in self._topics | before:
+                self._say("WarningEvent", str(remark))
+            self._topics.add(topic)
 
     def error(self, text: str) -> None:
         """Tells an error."""

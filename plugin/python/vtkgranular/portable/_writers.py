@@ -2,75 +2,21 @@
 """The writers: data of the pipeline as files, by the C library."""
 from __future__ import annotations
 
-import ctypes
 from typing import Any, Iterator
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkInformationVector
-from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkDataObject, vtkDataSetAttributes
+from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from .. import _library as c
-from .._write import _c_arrays
+from ._contents import DUPLICATE, Content, Rows, box_of
 from ._ranks import gather, is_first, share
 from ._readers import Reader
 from ._told import Told
-
-_COORDINATES = ("Absolute", "Unwrapped", "Scaled")
-_DUPLICATE = 1  # of vtkGhostType
-
-
-class Rows:
-    """What a rank writes of a frame: arrays by their names, and what field data tell of the frame."""
-
-    def __init__(self, data: Any):
-        self.arrays: dict[str, Any] = {}
-        self.told: list[str] = []
-        self.facts = {name: _values(data.GetFieldData().GetAbstractArray(name)) for name in (
-            "Columns", "ColumnDigits", "Dialect", "label", "RowLabel", "units", "timestep", "time", "Coordinates", "PointOrigin", "BoxOrigin",
-            "BoxVectors", "BoxBounds", "Boundary")}
-
-    def see(self, attributes: Any, count: int) -> None:
-        """Takes all arrays of attributes, with a value for each of so many rows."""
-        for i in range(attributes.GetNumberOfArrays()):
-            array = attributes.GetAbstractArray(i)
-            name = array.GetName()
-            if name == vtkDataSetAttributes.GhostArrayName():
-                continue
-            if name in ("points", "ends"):
-                raise c.Error(f"column '{name}': expected another name, as the places of rows have it")
-            if not name or not (array.IsA("vtkDataArray") or array.IsA("vtkStringArray")):
-                self.told.append(f"the array '{name}' of the type {array.GetDataTypeAsString()} is left out" if name else
-                                 "an array without a name is left out")
-                continue
-            if array.GetNumberOfTuples() != count:
-                raise c.Error(f"column '{name}': expected a value for each of {count} rows, got {array.GetNumberOfTuples()}")
-            self.arrays[name] = _values(array)
-
-    def keep(self, mask: Any) -> None:
-        """Keeps some rows."""
-        self.arrays = {name: values[mask] for name, values in self.arrays.items()}
-
-    def leave_out(self, ghosts: Any) -> None:
-        """Leaves out the rows that another rank has, by an array of ghosts, if there is one."""
-        if ghosts:
-            self.keep((vtk_to_numpy(ghosts) & _DUPLICATE) == 0)
-
-    def __len__(self) -> int:
-        return len(next(iter(self.arrays.values()), ()))
-
-
-def _values(array: Any) -> Any:
-    """Returns the values of an array of VTK, or None."""
-    if array is None:
-        return None
-    if array.IsA("vtkStringArray"):
-        return numpy.array([array.GetValue(i) for i in range(array.GetNumberOfValues())], dtype=str)
-    values = vtk_to_numpy(array)
-    return values.reshape(-1, array.GetNumberOfComponents()) if array.GetNumberOfComponents() > 1 else values
 
 
 class Writer(VTKPythonAlgorithmBase):
@@ -251,61 +197,21 @@ class Writer(VTKPythonAlgorithmBase):
             self._told.warn(text)
         arrays = {name: values if len(filled) == 1 else numpy.concatenate([part.arrays[name] for part in filled])
                   for name, values in known.arrays.items()}
-        given, rows, kept = _c_arrays(arrays)
-        content, header = c.Content(), c.FrameHeader()
-        c.library().granular_content_init(c.byref(content))
-        content.arrays, content.array_count, content.rows = given, len(arrays), rows
-        facts, content.header = known.facts, ctypes.pointer(header)
-        if facts["timestep"] is not None and len(facts["timestep"]) == 1 and facts["timestep"][0] == int(facts["timestep"][0]):
-            content.timestep = int(facts["timestep"][0])
-        else:
+        facts = known.facts
+        content = Content(arrays, facts)
+        if content.timestep == c.NO_TIMESTEP:
             self._told.warn("the input has no field data 'timestep': " + ("its time is taken for it" if step is not None else
                                                                          "frames are counted from 0"))
             content.timestep = int(step) if step is not None else number
         of_file = facts["time"] is not None and len(facts["time"]) == 1
         content.has_time = int(of_file or time is not None)
         content.time = float(facts["time"][0]) if of_file else float(time or 0)
-        self._fill_header(header, facts, kept)
-        content.units = header.units
-        box = self.box(facts)
-        if box is not None:
-            content.box = ctypes.pointer(box)
+        content.set_box(self.box(facts))
         c.library().granular_write(pointer, c.byref(content))
-
-    @staticmethod
-    def _fill_header(header: c.FrameHeader, facts: dict[str, Any], kept: list[Any]) -> None:
-        def text(name: str) -> bytes:
-            return str(facts[name][0]).encode() if facts[name] is not None and len(facts[name]) else b""
-
-        columns = [] if facts["Columns"] is None else [str(name) for name in facts["Columns"]]
-        header.columns = " ".join(columns).encode()
-        if facts["ColumnDigits"] is not None and len(facts["ColumnDigits"]) == len(columns):
-            digits = (c.c_int * max(1, len(columns)))(*map(int, facts["ColumnDigits"]))
-            header.digits, header.digit_count = digits, len(columns)
-            kept.append(digits)
-        dialect = text("Dialect")
-        header.dialect = dialect if dialect in (b"LAMMPS", b"LIGGGHTS") else b""
-        header.label, header.row_label, header.units = text("label"), text("RowLabel"), text("units")
-        coordinates = text("Coordinates").decode()
-        header.coordinates = _COORDINATES.index(coordinates) if coordinates in _COORDINATES else 0
-        if facts["PointOrigin"] is not None and facts["PointOrigin"].size == 3:
-            header.origin[:] = facts["PointOrigin"].ravel().tolist()
 
     def box(self, facts: dict[str, Any]) -> c.CBox | None:
         """Returns the box that is written."""
-        box, boundary = c.CBox(), facts["Boundary"]
-        origin, vectors, bounds = (facts[name] for name in ("BoxOrigin", "BoxVectors", "BoxBounds"))
-        box.boundary = str(boundary[0]).encode() if boundary is not None and len(boundary) else b""
-        if origin is None or vectors is None or origin.size != 3 or vectors.size != 9:
-            return None
-        box.origin[:], box.vectors[:] = origin.ravel().tolist(), vectors.ravel().tolist()
-        if bounds is not None and bounds.size in (6, 9):
-            exact = c.CBox()
-            exact.has_bounds, exact.bounds[:bounds.size] = 1, bounds.ravel().tolist()
-            c.library().granular_complete_box(c.byref(exact))
-            if exact.origin[:] == box.origin[:] and exact.vectors[:] == box.vectors[:]:
-                box.has_bounds, box.bounds[:] = 1, exact.bounds[:]
-        return box
+        return box_of(facts)
 
 
 class GranularDumpWriter(Writer):
@@ -374,7 +280,7 @@ class GranularLocalWriter(Writer):
                 raise c.Error(f"{c.shown(self._path)}: expected all parts of a line one after the other, got others")
         ghosts = data.GetCellGhostArray()
         if ghosts:
-            own = (vtk_to_numpy(ghosts)[begins] & _DUPLICATE) == 0
+            own = (vtk_to_numpy(ghosts)[begins] & DUPLICATE) == 0
             begins, ends = begins[own], ends[own]
         rows.keep(begins)
         if not self.values["Columns"]:

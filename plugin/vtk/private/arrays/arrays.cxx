@@ -199,8 +199,8 @@ vtkSmartPointer<vtkAbstractArray> TakeTexts(const granular::TableArray& texts, v
 void NameComponents(vtkAbstractArray* array, const granular::ArrayInfo& info,
   const std::vector<granular::ColumnInfo>& columns)
 {
-  const std::string& first = columns[info.columns.front()].name;
-  if (info.components() == 1 || (info.components() == 3 && first.find('[') == std::string::npos))
+  if (info.components() == 1 ||
+    (info.components() == 3 && columns[info.columns.front()].name.find('[') == std::string::npos))
   {
     return;
   }

@@ -130,8 +130,8 @@ void ContactInput::ReadEnds(vtkDataObject* input)
     this->View.ends = this->Ends;
     return;
   }
-  const std::vector<vtkIdType> begins = this->Rows.FindBegins();
-  const std::vector<vtkIdType> ends = this->Rows.FindEnds();
+  const std::vector<std::int64_t> begins = this->Rows.FindBegins();
+  const std::vector<std::int64_t> ends = this->Rows.FindEnds();
   this->Ends.resize(6 * begins.size());
   vtkNew<vtkIdList> ids;
   for (std::size_t row = 0; row < begins.size(); ++row)

@@ -6,18 +6,17 @@
 #include "private/request/request_task.h"
 
 #include "granular/common/progress.h"
+#include "granular/lines/line_rows.h"
 #include "granular/parallel/communicator.h"
+#include "granular/particles/frame_view.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkAlgorithm;
@@ -25,7 +24,6 @@ class vtkDataObject;
 class vtkDataSet;
 class vtkDataSetAttributes;
 class vtkFieldData;
-class vtkIdList;
 class vtkPointSet;
 class vtkPolyData;
 
@@ -46,73 +44,41 @@ struct ChosenCells
 };
 
 /**
- * Rows that name particles at the ends of lines: of a table, or cells of lines. Each row counts once: if there are
- * integers `part`, as AddParts makes them, only those with part 0 count. Duplicate ghosts are left out.
+ * The rows of a data object that name particles at the ends of lines: of a table, or cells of lines; and their arrays.
  */
 class LocalRows
 {
 public:
   /**
-   * Throws UnsupportedError if the data are neither a vtkDataSet nor a vtkTable.
+   * Throws UnsupportedError if the data are neither a vtkDataSet nor a vtkTable, and what ArrayViews throws.
    */
   explicit LocalRows(vtkDataObject* input);
+  LocalRows(const LocalRows&) = delete;
+  void operator=(const LocalRows&) = delete;
 
-  vtkIdType Count() const { return this->AreAll ? this->AllTuples : std::ssize(this->Tuples); }
+  granular::LineRows& Get() { return *this->Rows; }
 
-  /**
-   * Returns true if each cell, or tuple of the table, is a row.
-   */
-  bool AreAllCells() const { return this->AreAll; }
-
-  /**
-   * Returns the cells, or tuples of the table, at which each row begins and ends. Throws Error if the parts of a line
-   * are not consecutive.
-   */
-  std::vector<vtkIdType> FindBegins() const;
-  std::vector<vtkIdType> FindEnds() const;
-
-  /**
-   * Keeps rows [first, last).
-   */
-  void Keep(std::pair<vtkTypeInt64, vtkTypeInt64> range);
-
-  bool Has(const char* name) const;
-
-  /**
-   * Returns true if an array has one number per row.
-   */
-  bool HasNumbers(const char* name) const;
+  vtkIdType Count() const { return this->Rows->count(); }
+  bool AreAllCells() const { return this->Rows->are_all_cells(); }
+  std::vector<std::int64_t> FindBegins() const { return this->Rows->find_begins(); }
+  std::vector<std::int64_t> FindEnds() const { return this->Rows->find_ends(); }
+  bool Has(const char* name) const { return this->Rows->has(name); }
+  bool HasParts() const { return this->Rows->has_parts(); }
+  bool LackPlaces() const { return this->Rows->lack_places(); }
+  std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress) const
+  {
+    return this->Rows->read_ids(name, progress);
+  }
+  std::span<const double> ReadTuples(const char* name, int numbers, std::vector<double>& own) const
+  {
+    return this->Rows->read_tuples(name, numbers, own);
+  }
 
   /**
-   * Returns true if there are parts of split lines.
+   * Adds all arrays, with the values of some cells, or tuples of the table, in any order; all: of all, whatever cells are.
    */
-  bool HasParts() const;
-
-  /**
-   * Returns true for lines of a reader whose file names the ends by id alone: there are none, and the rows are elsewhere.
-   */
-  bool LackPlaces() const;
-
-  /**
-   * Returns the ids of all rows. Throws Error if the array is missing or holds other numbers; granular::Cancelled.
-   */
-  std::vector<std::int64_t> ReadIds(const char* name, granular::Progress& progress);
-
-  /**
-   * Returns an array with so many numbers for each row: in place if they lie so in memory, otherwise in `own`. Throws
-   * Error if there are other numbers, or texts.
-   */
-  std::span<const double> ReadTuples(const char* name, int numbers, std::vector<double>& own);
-
-  /**
-   * Returns all arrays, with the values of as many rows, in any order.
-   */
-  void Pass(const std::vector<std::int64_t>& rows, vtkIdType count, vtkDataSetAttributes* to) const;
-
-  /**
-   * Returns all arrays, with the values of some cells, or tuples of the table, in any order.
-   */
-  void PassCells(const std::vector<std::int64_t>& cells, vtkDataSetAttributes* to) const;
+  void PassCells(
+    const std::vector<std::int64_t>& cells, vtkDataSetAttributes* to, bool all = false) const;
 
   /**
    * Adds the lines of some rows, cells of the input, to those of the output: each cell with points of its own, which are
@@ -124,23 +90,17 @@ public:
   vtkFieldData* GetFieldData() const { return this->Field; }
 
 private:
-  granular::ArrayView See(const char* name, int numbers = 1);
-  void FindTuples();
-  void PassTuples(vtkIdList* tuples, vtkDataSetAttributes* to) const;
-
-  vtkIdType TupleOf(std::int64_t row) const
-  {
-    return this->AreAll ? row : this->Tuples[static_cast<std::size_t>(row)];
-  }
-
   vtkDataSetAttributes* Data = nullptr;
-  bool MayBeSplit = false; ///< they are lines
   vtkFieldData* Field = nullptr;
   ArrayViews Arrays{ "rows" };
-  vtkIdType AllTuples = 0;
-  bool AreAll = true;            ///< each is a row
-  std::vector<vtkIdType> Tuples; ///< of the rows, where not all are
+  granular::FrameView Cells;
+  std::optional<granular::LineRows> Rows;
 };
+
+/**
+ * Returns the timestep in field data, if there is one.
+ */
+std::optional<std::int64_t> TimestepOf(vtkFieldData* data);
 
 /**
  * Returns the rows of an input of many times that have the timestep of the particles, or else the last one before it that is found. The

@@ -7,6 +7,7 @@
 #include "granular/memory/block.h"
 #include "granular/parallel/executor.h"
 #include "granular/parallel/trade.h"
+#include "granular/particles/known_arrays.h"
 
 #include "vtkAlgorithm.h"
 
@@ -200,7 +201,7 @@ void vtkGranularPathAlgorithm::PathTask::ReadInput()
     this->Origin = view.point_origin;
     this->Request.origin = this->Origin;
   }
-  this->Request.arrays = ShareNames(this->Self->Arrays, view, this->Ranks);
+  this->Request.arrays = granular::share_names(this->Self->Arrays, view, this->Ranks);
 }
 
 //------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 
 #include "vtkGranularAlgorithm.h"
 
-#include "granular/common/shares.h"
+#include "granular/parallel/pieces.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataObject.h"
@@ -64,27 +64,6 @@ PiecesKey* GetKey()
   return key;
 }
 
-bool IsOwn(const PieceRequest& wanted, const granular::Communicator& ranks)
-{
-  return wanted.Pieces == ranks.size() && wanted.Piece == ranks.rank();
-}
-
-/**
- * Returns true if each rank requests its own part of a whole, false if each requests all or is alone.
- */
-bool AreTogether(const PieceRequest& wanted, bool mayDiffer, granular::Communicator& ranks)
-{
-  std::int64_t all = IsOwn(wanted, ranks) ? 1 : 0;
-  ranks.sum({ &all, 1 });
-  const bool together = all == ranks.size();
-  if (all != 0 && !together && !mayDiffer)
-  {
-    throw granular::UnsupportedError(
-      "expected that all processes ask for their own piece, or none, got " + std::to_string(all) +
-      " of " + std::to_string(ranks.size()));
-  }
-  return together;
-}
 }
 
 PieceRequest PieceRequest::Of(vtkInformation* output)
@@ -108,9 +87,7 @@ PieceRequest PieceRequest::Of(vtkInformation* request, vtkInformationVector* out
 
 std::pair<vtkTypeInt64, vtkTypeInt64> PieceRequest::RangeOf(vtkTypeInt64 count) const
 {
-  const auto first = [&](int piece)
-  { return piece < this->Pieces ? granular::begin_of_part(count, piece, this->Pieces) : count; };
-  return { first(this->Piece), first(this->Piece + 1) };
+  return granular::range_of_piece(count, this->Piece, this->Pieces);
 }
 
 void ForgetPieces(vtkInformation* output)
@@ -137,7 +114,7 @@ void KeepPieces(vtkAlgorithm* self, vtkInformationVector* outputs)
 
 PieceRequest PieceOfInput(const PieceRequest& wanted, const granular::Communicator& ranks)
 {
-  return IsOwn(wanted, ranks) ? wanted : PieceRequest();
+  return granular::is_own_piece(wanted.Piece, wanted.Pieces, ranks) ? wanted : PieceRequest();
 }
 
 RequestTask::RequestTask(vtkGranularAlgorithm* self, vtkInformation* request,
@@ -149,7 +126,8 @@ RequestTask::RequestTask(vtkGranularAlgorithm* self, vtkInformation* request,
   , RankReport(this->AlgorithmReport, self->Ranks->Get())
   , Ranks(self->Ranks->Get())
   , Wanted(PieceRequest::Of(request, outputs))
-  , Together(AreTogether(this->Wanted, mayDiffer, this->Ranks))
+  , Together(
+      granular::are_together(this->Wanted.Piece, this->Wanted.Pieces, mayDiffer, this->Ranks))
   , Group(this->Together ? this->Ranks : this->Alone)
   , Threads(ChooseThreads(self->GetThreads(), this->Ranks))
   , Progress(this->RankReport)

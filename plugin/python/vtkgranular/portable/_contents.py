@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data sets of VTK as the C library takes them, to write and to filter; nothing is copied that lies in memory as it wants it."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDataArray
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+
+from .. import _library as c
+from .._write import _c_arrays
+
+_COORDINATES = ("Absolute", "Unwrapped", "Scaled")
+DUPLICATE = 1  # of vtkGhostType
+
+
+class Rows:
+    """The rows of a rank: arrays by their names, and what field data tell of the frame."""
+
+    def __init__(self, data: Any):
+        self.arrays: dict[str, Any] = {}
+        self.told: list[str] = []
+        self.facts = {name: values_of(data.GetFieldData().GetAbstractArray(name)) for name in (
+            "Columns", "ColumnDigits", "Dialect", "label", "RowLabel", "units", "timestep", "time", "Coordinates", "PointOrigin", "BoxOrigin",
+            "BoxVectors", "BoxBounds", "Boundary")}
+
+    def see(self, attributes: Any, count: int) -> None:
+        """Takes all arrays of attributes, with a value for each of so many rows, to be written."""
+        for i in range(attributes.GetNumberOfArrays()):
+            array = attributes.GetAbstractArray(i)
+            name = array.GetName()
+            if name == vtkDataSetAttributes.GhostArrayName():
+                continue
+            if name in ("points", "ends"):
+                raise c.Error(f"column '{name}': expected another name, as the places of rows have it")
+            if not name or not _is_known(array):
+                self.told.append(f"the array '{name}' of the type {array.GetDataTypeAsString()} is left out" if name else
+                                 "an array without a name is left out")
+                continue
+            self.arrays[name] = _checked(array, count, "rows")
+
+    def see_all(self, attributes: Any, count: int, owners: str) -> None:
+        """Takes all arrays of attributes to be filtered, ghosts included. owners: what there are so many of, in errors."""
+        for i in range(attributes.GetNumberOfArrays()):
+            array = attributes.GetAbstractArray(i)
+            if array.GetName() and array.GetName() not in ("points", "ends") and _is_known(array) and array.GetNumberOfComponents():
+                self.arrays[array.GetName()] = _checked(array, count, owners)
+
+    def keep(self, mask: Any) -> None:
+        """Keeps some rows."""
+        self.arrays = {name: values[mask] for name, values in self.arrays.items()}
+
+    def leave_out(self, ghosts: Any) -> None:
+        """Leaves out the rows that another rank has, by an array of ghosts, if there is one."""
+        if ghosts:
+            self.keep((vtk_to_numpy(ghosts) & DUPLICATE) == 0)
+
+    def __len__(self) -> int:
+        return len(next(iter(self.arrays.values()), ()))
+
+
+class Content(c.Content):
+    """Rows as the library takes them. Its timestep is known if the field data know it."""
+
+    def __init__(self, arrays: dict[str, Any], facts: dict[str, Any]):
+        super().__init__()
+        c.library().granular_content_init(ctypes.byref(self))
+        self._header = header = c.FrameHeader()
+        given, self.rows, self._kept = _c_arrays(arrays)
+        self.arrays, self.array_count, self.header = given, len(arrays), ctypes.pointer(header)
+        step = facts["timestep"]
+        self.timestep = int(step[0]) if step is not None and len(step) == 1 and step[0] == int(step[0]) else c.NO_TIMESTEP
+
+        def text(name: str) -> bytes:
+            return str(facts[name][0]).encode() if facts[name] is not None and len(facts[name]) else b""
+
+        columns = [] if facts["Columns"] is None else [str(name) for name in facts["Columns"]]
+        header.columns = " ".join(columns).encode()
+        if facts["ColumnDigits"] is not None and len(facts["ColumnDigits"]) == len(columns):
+            digits = (c.c_int * max(1, len(columns)))(*map(int, facts["ColumnDigits"]))
+            header.digits, header.digit_count = digits, len(columns)
+            self._kept.append(digits)
+        dialect = text("Dialect")
+        header.dialect = dialect if dialect in (b"LAMMPS", b"LIGGGHTS") else b""
+        header.label, header.row_label, header.units = text("label"), text("RowLabel"), text("units")
+        self.units = header.units
+        coordinates = text("Coordinates").decode()
+        header.coordinates = _COORDINATES.index(coordinates) if coordinates in _COORDINATES else 0
+        if facts["PointOrigin"] is not None and facts["PointOrigin"].size == 3:
+            header.origin[:] = facts["PointOrigin"].ravel().tolist()
+
+    def set_box(self, box: c.CBox | None) -> None:
+        """Gives it a box, or none."""
+        if box is not None:
+            self.box = ctypes.pointer(box)
+
+
+def box_of(facts: dict[str, Any]) -> c.CBox | None:
+    """Returns the box that field data tell, if they tell one."""
+    box, boundary = c.CBox(), facts["Boundary"]
+    origin, vectors, bounds = (facts[name] for name in ("BoxOrigin", "BoxVectors", "BoxBounds"))
+    box.boundary = str(boundary[0]).encode() if boundary is not None and len(boundary) else b""
+    if origin is None or vectors is None or origin.size != 3 or vectors.size != 9:
+        return None
+    box.origin[:], box.vectors[:] = origin.ravel().tolist(), vectors.ravel().tolist()
+    if bounds is not None and bounds.size in (6, 9):
+        exact = c.CBox()
+        exact.has_bounds, exact.bounds[:bounds.size] = 1, bounds.ravel().tolist()
+        c.library().granular_complete_box(c.byref(exact))
+        if exact.origin[:] == box.origin[:] and exact.vectors[:] == box.vectors[:]:
+            box.has_bounds, box.bounds[:] = 1, exact.bounds[:]
+    return box
+
+
+def values_of(array: Any) -> Any:
+    """Returns the values of an array of VTK, or None. They are copied where numpy cannot see them."""
+    if array is None:
+        return None
+    if array.IsA("vtkStringArray"):
+        return numpy.array([array.GetValue(i) for i in range(array.GetNumberOfValues())], dtype=str)
+    if not array.HasStandardMemoryLayout():
+        copy = vtkDataArray.CreateDataArray(array.GetDataType())
+        copy.DeepCopy(array)
+        array = copy
+    values = vtk_to_numpy(array)
+    return values.reshape(-1, array.GetNumberOfComponents()) if array.GetNumberOfComponents() > 1 else values
+
+
+def _is_known(array: Any) -> bool:
+    return bool(array.IsA("vtkDataArray") or array.IsA("vtkStringArray"))
+
+
+def _checked(array: Any, count: int, owners: str) -> Any:
+    if array.GetNumberOfTuples() != count:
+        raise c.Error(f"column '{array.GetName()}': expected a value for each of {count} {owners}, got {array.GetNumberOfTuples()}")
+    return values_of(array)
+
+
+# ---- inputs of filters ---------------------------------------------------------------------------
+def _expected(data: Any, expected: str) -> c.Error:
+    got = f"a {data.GetClassName()}" if data else "nothing"
+    more = ": the filter MergeBlocks makes one of it" if data and data.IsA("vtkCompositeDataSet") else ""
+    return c.Error(f"expected {expected}, got {got}{more}")
+
+
+def _content(rows: Rows, count: int) -> Content:
+    made = Content(rows.arrays, rows.facts)
+    made.rows = count
+    made.set_box(box_of(rows.facts))
+    return made
+
+
+def particles(data: Any) -> Content:
+    """Takes the points of a data set."""
+    if data is None or not data.IsA("vtkPointSet"):
+        raise _expected(data, "a vtkPointSet of particles")
+    rows, count = Rows(data), data.GetNumberOfPoints()
+    if data.GetPoints():
+        rows.arrays["points"] = values_of(data.GetPoints().GetData()).reshape(-1, 3)
+    rows.see_all(data.GetPointData(), count, "points")
+    return _content(rows, count)
+
+
+def attributes_of(data: Any) -> tuple[Any, int]:
+    """Returns the arrays of the cells of a data set, or of the rows of a table, and the number of these."""
+    if data is not None and data.IsA("vtkDataSet"):
+        return data.GetCellData(), data.GetNumberOfCells()
+    if data is not None and data.IsA("vtkTable"):
+        return data.GetRowData(), data.GetNumberOfRows()
+    raise _expected(data, "lines as cells of a vtkDataSet, or a vtkTable with a row for each")
+
+
+def lines(data: Any, places: bool = True) -> Content:
+    """Takes cells as lines, or the rows of a table. places: False if only the arrays matter, and not where the ends are."""
+    attributes, count = attributes_of(data)
+    rows = Rows(data)
+    if data.IsA("vtkDataSet"):
+        rows.arrays["ends"] = _ends(data, count) if places else numpy.empty((count, 6))
+    rows.see_all(attributes, count, "rows")
+    return _content(rows, count)
+
+
+def rows_only(data: Any) -> Content:
+    """Takes cells as lines, or the rows of a table, without the places of the ends."""
+    return lines(data, False)
+
+
+def _ends(data: Any, count: int) -> Any:
+    """Returns the first and the last point of each cell; nan for cells that have none of their own."""
+    made = numpy.full((count, 6), numpy.nan)
+    names = ("GetVerts", "GetLines", "GetPolys", "GetStrips") if data.IsA("vtkPolyData") else ("GetCells",)
+    of_cells = [cells for cells in (getattr(data, name, lambda: None)() for name in names) if cells and cells.GetNumberOfCells()]
+    if not of_cells or sum(cells.GetNumberOfCells() for cells in of_cells) != count:
+        return made
+    points, begin = values_of(data.GetPoints().GetData()).astype(float, copy=False), 0
+    for cells in of_cells:
+        offsets, ids = vtk_to_numpy(cells.GetOffsetsArray()), vtk_to_numpy(cells.GetConnectivityArray())
+        first, last = ids[offsets[:-1]], ids[offsets[1:] - 1]
+        if len(first) == count and len(points) == 2 * count and (first == numpy.arange(0, 2 * count, 2)).all() and (last == first + 1).all():
+            return points.reshape(-1, 6)  # in place
+        made[begin:begin + len(first), :3], made[begin:begin + len(first), 3:] = points[first], points[last]
+        begin += len(first)
+    return made

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes what the filters and sources of a plugin make: filters.py PLUGIN FOLDER, on one or more ranks.
+
+FOLDER/NAME.json has what is told of one row of FILTERS by rank: all outputs that each rank has at up to three times, warnings and errors.
+"""
+import json
+import os
+import re
+import sys
+
+from paraview import servermanager, simple
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+plugin, folder = sys.argv[1:]
+simple.LoadPlugin(plugin)
+GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
+
+
+def reader(name, *files, port=0, **properties):
+    """A port of a reader of good files."""
+    made = getattr(simple, name)(FileNames=[os.path.join(GOOD, file) for file in files])
+    for prop, value in properties.items():
+        setattr(made, prop, value)
+    return servermanager.OutputPort(made, port)
+
+
+def changed(source, script, kind="Same as Input"):
+    """A source behind a script, which makes `output` of `given` on each rank, of which it knows rank and ranks."""
+    lines = ["from vtkmodules.vtkParallelCore import vtkMultiProcessController", "world = vtkMultiProcessController.GetGlobalController()",
+             "rank, ranks = world.GetLocalProcessId(), world.GetNumberOfProcesses()",
+             "given, output = self.GetInputDataObject(0, 0), self.GetOutputDataObject(0)"]
+    return simple.ProgrammableFilter(Input=source, OutputDataSetType=kind, Script="\n".join([*lines, script]))
+
+
+def chain(**properties):
+    return reader("GranularDumpReader", "local/chain.dump", **properties)
+
+
+def bonds(port=1, **properties):
+    return reader("GranularLocalReader", "local/chain_bonds.dump", port=port, **properties)
+
+
+def split():
+    """Lines that are split at the faces of the box."""
+    return simple.GranularLocalJoin(Input=chain(), Lines=bonds(), PeriodicLines="Split", EquilibriumLength=1)
+
+
+LOSE_BOX = """output.ShallowCopy(given)
+for name in ("BoxOrigin", "BoxVectors", "BoxBounds", "Boundary"):
+    output.GetFieldData().RemoveArray(name)"""
+SHORT = """output.ShallowCopy(given)
+output.GetPointData().GetArray("v").SetNumberOfTuples(3)"""
+
+#: The rows: the filter or source, its properties, and its inputs by their properties.
+FILTERS = [
+    ("GranularPackingSource", {"NumberOfGrains": 300, "Speed": 1.0, "BondFactor": 1.5, "Boundary": "p p f"}, {}),
+    ("GranularPackingSource", {"Arrangement": "FaceCentredCubic", "BoxLengths": [0.1, 0.12, 0.15], "BoxTilts": [0.02, 0, 0.01], "Radii": "One"}, {}),
+    ("GranularPackingSource", {"Arrangement": "Chain", "NumberOfGrains": 2, "BondFactor": 1, "BoxOrigin": [1, 2, 3]}, {}),
+    ("GranularPackingSource", {"BoxTilts": [1, 0, 0]}, {}),
+    ("GranularPackingSource", {"SolidFraction": 0.6, "NumberOfGrains": 1000}, {}),
+    ("GranularLocalJoin", {"Averages": "v type", "Differences": "*", "EquilibriumLength": 1.05}, {"Input": chain, "Lines": bonds}),
+    ("GranularLocalJoin", {"PeriodicLines": "Split", "Averages": "*"},
+     {"Input": lambda: chain(Coordinates="Scaled", PointOrigin=[0.5, 0, 0]), "Lines": bonds}),
+    ("GranularLocalJoin", {"PeriodicLines": "Split"}, {"Input": lambda: chain(Coordinates="Unwrapped"), "Lines": bonds}),
+    ("GranularLocalJoin", {"PeriodicLines": "AsWritten", "Averages": "missing"}, {"Input": chain, "Lines": bonds}),
+    ("GranularLocalJoin", {"EquilibriumLength": -1}, {"Input": chain, "Lines": bonds}),
+    ("GranularLocalJoin", {"PeriodicLines": "Split"}, {"Input": lambda: changed(chain(), LOSE_BOX), "Lines": bonds}),
+    ("GranularLocalJoin", {}, {"Input": lambda: changed(chain(), LOSE_BOX), "Lines": split}),
+    ("GranularLocalJoin", {"EquilibriumLengthArray": "dist"}, {"Input": lambda: chain(TimestepSize=0.5), "Lines": bonds}),
+    ("GranularLocalJoin", {}, {"Input": lambda: changed(chain(), SHORT), "Lines": bonds}),
+    ("GranularLocalJoin", {}, {"Input": bonds, "Lines": bonds}),
+    ("GranularLocalJoin", {}, {"Input": chain, "Lines": lambda: bonds(port=0)}),
+]
+
+
+def of_message(text):
+    """The words of a warning or error, without the place and class that VTK names."""
+    return re.sub(r"(?s)^.*?\(0x[0-9a-f]+\): ", "", text).strip()
+
+
+def tell(key, source, port):
+    """Lets each rank write what it has of an output."""
+    script = f"""import json, sys
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+sys.path.insert(0, {HERE!r})
+from told_data import of_data
+world = vtkMultiProcessController.GetGlobalController()
+with open({os.path.join(folder, key)!r} + f"_{{world.GetLocalProcessId()}}.json", "w") as file:
+    json.dump(of_data(self.GetInputDataObject(0, 0)), file, indent=1)"""
+    return simple.ProgrammableFilter(Input=servermanager.OutputPort(source, port), OutputDataSetType="vtkTable", Script=script)
+
+
+for number, (name, properties, inputs) in enumerate(FILTERS):
+    made = getattr(simple, name)(**{prop: make() for prop, make in inputs.items()})
+    for prop, value in properties.items():
+        setattr(made, prop, value)
+    said, key = [], f"{number}_{name}"
+    for event in ("WarningEvent", "ErrorEvent"):
+        def hear(_, kind, text, said=said):
+            said.append([kind, of_message(text)])
+
+        hear.CallDataType = "string0"
+        made.GetClientSideObject().AddObserver(event, hear)
+    made.UpdatePipelineInformation()
+    times = list(getattr(made, "TimestepValues", None) or ())
+    for time in times[:2] + times[2:][-1:] or [None]:
+        for port in range(made.SMProxy.GetNumberOfOutputPorts()):
+            teller = tell(f"{key}_{port}_{time}", made, port)
+            teller.UpdatePipeline(*([] if time is None else [time]))
+            simple.Delete(teller)
+        said.append([time, made.GetPropertyValue("ErrorMessage")])
+    rank = simple.servermanager.vtkProcessModule.GetProcessModule().GetPartitionId()
+    with open(os.path.join(folder, f"{key}_said_{rank}.json"), "w", encoding="utf-8") as file:
+        json.dump({"row": [name, repr(properties)], "times": repr(times), "said": said}, file, indent=1)
+    simple.Delete(made)

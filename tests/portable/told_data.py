@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All that there is to compare of a data object, as values of JSON."""
+import hashlib
+
+
+def digest(values):
+    return hashlib.sha256(values).hexdigest()[:16]
+
+
+def of_array(array):
+    if array is None:
+        return None
+    told = [array.GetClassName(), array.GetName(), array.GetNumberOfComponents(), array.GetNumberOfTuples()]
+    told.append([array.GetComponentName(i) for i in range(array.GetNumberOfComponents())])
+    if array.GetClassName() == "vtkStringArray":
+        return [*told, [array.GetValue(i) for i in range(min(array.GetNumberOfValues(), 1000))]]
+    size = array.GetNumberOfValues()
+    told.append(digest(bytes(memoryview(array)) if size else b""))
+    ranges = [array.GetRange(i) for i in range(-1 if array.GetNumberOfComponents() > 1 else 0, array.GetNumberOfComponents())]
+    return [*told, repr(ranges)]
+
+
+def of_cells(cells):
+    if cells is None:
+        return None
+    return [cells.GetNumberOfCells(), *(of_array(each)[4:] + [each.GetClassName()] for each in (cells.GetOffsetsArray(), cells.GetConnectivityArray()))]
+
+
+def of_fields(data):
+    told = {data.GetAbstractArray(i).GetName(): of_array(data.GetAbstractArray(i)) for i in range(data.GetNumberOfArrays())}
+    for name in ("GetScalars", "GetVectors", "GetPedigreeIds"):
+        active = getattr(data, name, lambda: None)()
+        told[name] = active.GetName() if active else None
+    return [list(told), told]
+
+
+def of_data(data):
+    told = {"class": data.GetClassName(), "field": of_fields(data.GetFieldData())}
+    if data.IsA("vtkTable"):
+        return told | {"rows": of_fields(data.GetRowData())}
+    if data.IsA("vtkPartitionedDataSet"):
+        return told | {"parts": [of_data(data.GetPartition(i)) for i in range(data.GetNumberOfPartitions())]}
+    told |= {"points": of_fields(data.GetPointData()), "cells": of_fields(data.GetCellData()), "bounds": repr(data.GetBounds())}
+    if data.IsA("vtkImageData"):
+        return told | {"image": repr([data.GetExtent(), data.GetOrigin(), data.GetSpacing()])}
+    if data.GetPoints():
+        told["place"] = of_array(data.GetPoints().GetData())
+    if data.IsA("vtkPolyData"):
+        return told | {"verts": of_cells(data.GetVerts()), "lines": of_cells(data.GetLines())}
+    return told | {"grid": of_cells(data.GetCells()), "types": [data.GetCellType(i) for i in range(data.GetNumberOfCells())][:100]}
