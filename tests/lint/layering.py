@@ -101,7 +101,7 @@ PRIVATE_ROOMS = {room: words.split() for room, words in (
     ("readers", "request arrays dump local"),
 )}
 
-C_HEADERS = ("core/c/granular.h", "core/bonds/granular_bonds.h")
+C_HEADERS = ("core/c/granular.h", "core/c/granular_filters.h", "core/bonds/granular_bonds.h")
 SAMPLE_MODULES = ("paraview.simple", "vtkgranular", "numpy")
 LATER_MODULES = ("vtkgranular", "numpy", "pandas", "vtkmodules")
 

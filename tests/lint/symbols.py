@@ -14,7 +14,7 @@ def visible(nm, library):
     return [line.split(None, 2)[-1] for line in listing.splitlines()]
 
 
-HEADERS = {"libgranular.so": "c/granular.h", "libgranular_bonds.so": "bonds/granular_bonds.h"}
+HEADERS = {"libgranular.so": ("c/granular.h", "c/granular_filters.h"), "libgranular_bonds.so": ("bonds/granular_bonds.h",)}
 
 
 def declared(header):
@@ -31,11 +31,12 @@ def main():
         names = visible(sys.argv[1], library)
         if not names:
             sys.exit(f"{library}: shows nothing at all")
-        header = HEADERS.get(os.path.basename(library).partition(".so")[0] + ".so")
-        if header:
+        headers = HEADERS.get(os.path.basename(library).partition(".so")[0] + ".so")
+        if headers:
             functions = {name.split("@")[0] for name in names if not name.startswith("GRANULAR_")}  # versions
-            if functions != declared(header):
-                print(f"{os.path.basename(library)}:1: shows {sorted(functions ^ declared(header))}, or lacks them")
+            own = set().union(*map(declared, headers))
+            if functions != own:
+                print(f"{os.path.basename(library)}:1: shows {sorted(functions ^ own)}, or lacks them")
                 shown += 1
         for name in names:
             if "granular::" in name:

@@ -35,7 +35,7 @@ def of_fields(data):
 
 
 def of_data(data):
-    told = {"class": data.GetClassName(), "field": of_fields(data.GetFieldData())}
+    told = {"class": data.GetClassName(), "field": of_fields(data.GetFieldData()), "time": data.GetInformation().Get(data.DATA_TIME_STEP())}
     if data.IsA("vtkTable"):
         return told | {"rows": of_fields(data.GetRowData())}
     if data.IsA("vtkPartitionedDataSet"):

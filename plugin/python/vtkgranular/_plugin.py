@@ -51,7 +51,7 @@ def _plugin_beside_package(servermanager: Any) -> str:
 def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
     """Loads the ParaView plugin of this package and returns its path.
 
-    It is the plugin that was compiled for the version of ParaView that runs, else the portable one, which has the readers and writers.
+    It is the plugin that was compiled for the version of ParaView that runs, else the portable one, which lacks some filters.
 
     ns      globals() if `from paraview.simple import *` came first: the names are added there.
     remote  True: loads it on the server of a connection, where it must have the same path.
