@@ -200,4 +200,14 @@ tensor /= (HI - LO).prod()
 assert numpy.allclose(found["sigma"][0], tensor.diagonal(), rtol=1e-12, atol=0)
 assert numpy.allclose(found["tau"][0], [tensor[0, 1], tensor[0, 2], tensor[1, 2]], rtol=1e-12, atol=0)
 assert numpy.allclose(found["pressure"], -tensor.trace() / 3, rtol=1e-12, atol=0)
+
+# ---- the names in a call are all that is made, as if they were set later ------------------------------------------
+
+chains = GranularPackingSource(Arrangement="Chain")
+for make, inputs, name in ((GranularEulerAverage, {"MassArray": "radius"}, "volumefraction"),
+                           (GranularPointAverage, {"Points": chains, "MassArray": "radius"}, "volumefraction"),
+                           (GranularContactSums, {"Lines": OutputPort(chains, 2)}, "coordination")):
+    made = make(Input=chains, Arrays=[name], **inputs)
+    found = set(vg.fetch(made)) & set(made.Arrays.Available)
+    assert found - set(vg.fetch(chains)) == {name} and list(made.Arrays) == [name], (make, found, made.Arrays)
 print("averaged")

@@ -4,6 +4,7 @@ import gzip
 import os
 import shutil
 
+import vtkgranular as vg
 from paraview.simple import *
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
@@ -101,7 +102,8 @@ for files, properties, defaults, points, cells, times in READERS:
     assert times is None or list(reader.TimestepValues) == times, (files, reader.TimestepValues)
     if points:  # an array that is switched off is not there
         reader.PointArrayStatus = ["radius"]
-        reader.UpdatePipeline(times[-1])
-        assert list(reader.PointData.keys()) == ["radius"], (files, reader.PointData.keys())
+        for each in (reader, vg.reader([good(name) for name in files], PointArrayStatus=["radius"], **properties)):
+            each.UpdatePipeline(times[-1])
+            assert list(each.PointData.keys()) == ["radius"], (files, each.PointData.keys())
     Delete(reader)
 print("opened")

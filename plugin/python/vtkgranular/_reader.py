@@ -87,7 +87,8 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     controller.PreInitializeProxy(made)
     made.UpdateVTKObjects()
     with raised([made]):
-        for name, value in {**properties, "FileNames": names}.items():
+        # arrays are chosen among those of the files, which other properties say how to read
+        for name, value in sorted({**properties, "FileNames": names}.items(), key=lambda item: item[0].endswith("ArrayStatus")):
             setattr(made, name, value)
         controller.PostInitializeProxy(made)
         made.UpdatePipelineInformation()

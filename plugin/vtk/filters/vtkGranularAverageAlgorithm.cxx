@@ -19,5 +19,17 @@ vtkGranularAverageAlgorithm::~vtkGranularAverageAlgorithm()
   this->ArraySelection->Delete();
 }
 
+//------------------------------------------------------------------------------
+void vtkGranularAverageAlgorithm::SetArrayStatus(const char* name, int status)
+{
+  this->ArraySelection->SetArraySetting(name, status);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularAverageAlgorithm::ClearArrays()
+{
+  this->ArraySelection->DisableAllArrays();
+}
+
 vtkGranularPrintMacro(
   vtkGranularAverageAlgorithm, KernelWidth, VelocityArray, MassArray, RadiusArray, ArraySelection);

@@ -54,6 +54,14 @@ public:
 
   ///@{
   /**
+   * Turns an array of GetArraySelection on or off, or all off.
+   */
+  void SetArrayStatus(const char* name, int status);
+  void ClearArrays();
+  ///@}
+
+  ///@{
+  /**
    * Sets the width w of the kernel [m]: GAUSSIAN is exp(-r^2 / 2 w^2), cut at 3 w; LUCY (1 + 3 q)(1 - q)^3 with q = r / 2 w;
    * HEAVISIDE 1 within w. 0, the default: the largest diameter of the particles.
    */

@@ -339,5 +339,17 @@ vtkGranularContactSums::~vtkGranularContactSums()
   this->ArraySelection->Delete();
 }
 
+//------------------------------------------------------------------------------
+void vtkGranularContactSums::SetArrayStatus(const char* name, int status)
+{
+  this->ArraySelection->SetArraySetting(name, status);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularContactSums::ClearArrays()
+{
+  this->ArraySelection->DisableAllArrays();
+}
+
 vtkGranularPrintMacro(vtkGranularContactSums, LeverArm, MinimumForce, MinimumOverlap,
   RattlerContacts, FrictionCoefficient, RadiusArray, ArraySelection);

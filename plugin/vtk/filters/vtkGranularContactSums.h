@@ -81,6 +81,14 @@ public:
 
   ///@{
   /**
+   * Turns an array of GetArraySelection on or off, or all off.
+   */
+  void SetArrayStatus(const char* name, int status);
+  void ClearArrays();
+  ///@}
+
+  ///@{
+  /**
    * Sets where forces act. CONTACT_POINT, the default: at the array `contact_point`; without it at that part of the line which
    * the radii give, r1 / (r1 + r2); without radii at half the line. HALF_BRANCH: at half the line, as compute stress/atom has it.
    * Contacts with walls always act at the wall.
