@@ -183,6 +183,7 @@ class Frame(Mapping[str, Any]):
     """One frame of a run: a mapping of names to numpy arrays.
 
     frame["v"]      a column, or columns that form a vector: shape (rows,) or (rows, components)
+    frame[rows]     a frame of some rows, by a mask, indices or a slice as numpy has them: frame[frame["type"] == 1]
     frame.points    positions of particles, centres of cells, or the ends of lines, which have shape (rows, 2, 3)
     frame.step, frame.time, frame.box, frame.units, frame.label
     frame.bonds     of restart and data files: the bonds as a frame of their own
@@ -326,7 +327,9 @@ class Frame(Mapping[str, Any]):
         return self._columns().words.get(word) or self._raise_no_column(word)
 
     # ---- the mapping ----
-    def __getitem__(self, name: str) -> numpy.ndarray:
+    def __getitem__(self, name: Any) -> Any:
+        if not isinstance(name, str):
+            return Rows(self, name)
         if self._is_array(name) or name in ("points", "ends", "length"):
             return self._get(name)
         array, place = self._find(name)
@@ -436,6 +439,10 @@ class Frame(Mapping[str, Any]):
         self._load_all(progress)
         return self
 
+    def _write(self, writer: Any) -> None:
+        """Adds the frame to a file of the library."""
+        c.library().granular_write_frame(writer, self._to_write())
+
     # ---- other libraries ----
     def to_pandas(self) -> pandas.DataFrame:
         """Returns the rows as a pandas.DataFrame, a column for each component: x y z, id, vx vy vz, c_stress[1], ..."""
@@ -447,7 +454,7 @@ class Frame(Mapping[str, Any]):
         """Returns a vtkPolyData with the points or lines and all arrays. Needs VTK."""
         from ._to_vtk import to_vtk
 
-        return to_vtk(self.read())
+        return to_vtk(self.read(), self)
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -462,6 +469,84 @@ class Frame(Mapping[str, Any]):
         return f"<frame {self._number} of {self._run!r}: step {self.step}, columns {' '.join(self)}>"
 
 
+class Rows(Frame):
+    """Some rows of a frame, which is read when they are asked for."""
+
+    def __init__(self, frame: Frame, rows: Any):
+        import numpy
+
+        chosen = numpy.arange(frame.rows)[rows]
+        if chosen.ndim != 1:
+            raise IndexError(f"expected the name of a column, or rows by a mask, indices or a slice, got {rows!r}")
+        self.__dict__.update(frame.__dict__)
+        self._arrays = {}
+        self._frame, self._rows = (frame._frame, frame._rows[chosen]) if isinstance(frame, Rows) else (frame, chosen)
+
+    def _get(self, name: str) -> Any:
+        if name not in self._arrays:
+            self._arrays[name] = self._frame._get(name)[self._rows]
+        return self._arrays[name]
+
+    def _head(self, name: str) -> Any:
+        return len(self._rows) if name == "rows" else self._frame._head(name)
+
+    def _has_points(self) -> bool:
+        return self._frame._has_points()
+
+    def _columns(self) -> _Columns:
+        return self._frame._columns()
+
+    def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
+        self._frame.read(progress)
+        return self
+
+    def _write(self, writer: Any) -> None:
+        """Adds the rows to a file, with the digits and the columns of the frame's file."""
+        import numpy
+
+        library, handle, header, content = c.library(), self._frame._to_write(), c.FrameHeader(), c.Content()
+        library.granular_header(handle, c.byref(header))
+        if header.rows != self._frame.rows:
+            raise c.ArgumentError("expected rows of the file to write, got parts of lines: periodic_lines=\"split\" made them")
+        arrays, kept = (c.CArray * max(1, header.arrays))(), []
+        for i in range(header.arrays):
+            library.granular_array_at(handle, i, c.byref(arrays[i]))
+            kept.append(numpy.asarray(_Memory(handle, arrays[i]))[self._rows])
+            arrays[i].rows, arrays[i].data = len(self._rows), kept[-1].ctypes.data
+        names, offered = {c.text(array.name) for array in arrays[:header.arrays]}, self._columns()
+        if {"position1", "position2"} <= names:  # the ends as the file has them
+            arrays = (c.CArray * header.arrays)(*(array for array in arrays if array.name != b"ends"))
+        read = {part for column in (*offered.usual, *offered.others) for part in column.columns
+                if column.name in names or ("points" in names and column in offered.others)}
+        columns = c.text(header.columns).split()
+        places = [i for i, column in enumerate(columns) if column in read]  # a writer makes up the others
+        header.columns = " ".join(columns[i] for i in places).encode()
+        if header.digit_count:
+            header.digits, header.digit_count = (c.c_int * max(1, len(places)))(*(header.digits[i] for i in places)), len(places)
+        library.granular_content_init(c.byref(content))
+        content.timestep, content.has_time, content.time, content.units = header.timestep, header.has_time, header.time, header.units
+        content.rows, content.header = len(self._rows), c.pointer(header)
+        content.arrays, content.array_count = arrays, sum(1 for array in arrays if array.name)
+        if header.has_box:
+            content.box = c.pointer(header.box)
+        library.granular_add_input(writer, self._run._open())
+        library.granular_write(writer, c.byref(content))
+
+    @property
+    def bonds(self) -> Frame:
+        """The bonds between these particles."""
+        import numpy
+
+        bonds = self._frame.bonds
+        return bonds[numpy.isin(bonds["id1"], self["id"]) & numpy.isin(bonds["id2"], self["id"])]
+
+    def __reduce__(self) -> Any:
+        return Rows, (self._frame, self._rows)
+
+    def __repr__(self) -> str:
+        return f"<{len(self._rows)} rows of {self._frame!r}>"
+
+
 _COMPONENTS = {"points": ("x", "y", "z"), "ends": ("x1", "y1", "z1", "x2", "y2", "z2"), "": ()}
 
 
@@ -471,6 +556,8 @@ def _component_names(column: Column) -> Sequence[str]:
         return [column.name]
     if column.columns:
         return column.columns
+    if column.name == "image":
+        return "ix", "iy", "iz"
     if "_" not in column.name and column.components == 3:
         return [column.name + axis for axis in "xyz"]
     return [f"{column.name}[{i}]" for i in range(1, column.components + 1)]
@@ -491,7 +578,7 @@ def component_columns(frame: Frame) -> dict[str, Any]:
     frame.read()
     columns: dict[str, Any] = {}
     for name in (frame._points_name(), *frame):
-        if name in frame._arrays or frame._is_array(name):
+        if frame._has_points() or frame._is_array(name):
             values = frame._get(name)
             parts = [values] if values.ndim == 1 else values.T
             for part, component in zip(_COMPONENTS.get(name) or frame._columns().parts[name], parts):
@@ -511,6 +598,8 @@ def arrays_of(frame: Frame, words: list[str]) -> tuple[list[str], list[str]]:
 
 class _Frames(Sequence[Frame]):
     """Frames in some order: a run or a slice of one."""
+
+    _request: dict[str, Any] = {}  # what is read of each
 
     def _run_of(self) -> Run:
         raise NotImplementedError
@@ -544,9 +633,9 @@ class _Frames(Sequence[Frame]):
     def __getitem__(self, number: Any) -> Any:
         run = self._run_of()
         if isinstance(number, slice):
-            return RunSlice(run, self._numbers()[number])
+            return RunSlice(run, self._numbers()[number], self._request)
         try:
-            return Frame(run, self._numbers()[number])
+            return run._part(self._numbers()[number], **self._request)
         except IndexError:
             raise IndexError(f"expected a frame from {-len(self)} to {len(self) - 1}, got {number}") from None
 
@@ -592,8 +681,8 @@ def _read_ahead(frame: Frame, names: list[str], whole: bool) -> None:
 class RunSlice(_Frames):
     """Some frames of a run: run[10:20:5]."""
 
-    def __init__(self, run: Run, numbers: range):
-        self._run, self._range = run, numbers
+    def __init__(self, run: Run, numbers: range, request: dict[str, Any]):
+        self._run, self._range, self._request = run, numbers, request
 
     def _run_of(self) -> Run:
         return self._run

@@ -2,11 +2,11 @@
 """Frames as data sets of VTK."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Iterable
 
 
-def to_vtk(frame: Any) -> Any:
-    """Returns a vtkPolyData: points with a vertex each, or lines, with all arrays of the frame; field data timestep and time.
+def to_vtk(frame: Any, names: Iterable[str]) -> Any:
+    """Returns a vtkPolyData: points with a vertex each, or lines, with the arrays of these names; field data timestep and time.
 
     Arrays of numbers share the memory of the frame.
     """
@@ -37,7 +37,7 @@ def to_vtk(frame: Any) -> Any:
     cells.SetData(size, numpy_to_vtkIdTypeArray(numpy.arange(size * count, dtype=numpy.int64), deep=True))
     (data.SetLines if lines else data.SetVerts)(cells)
     to = data.GetCellData() if lines else data.GetPointData()
-    for name in frame:
+    for name in names:
         to.AddArray(array(name, frame[name]))
     for name, value in (("timestep", numpy.array([frame.step])), ("time", numpy.array([frame.time]))):
         data.GetFieldData().AddArray(array(name, value))

@@ -10,7 +10,8 @@ import re
 from typing import Any, Callable, Iterable, Mapping, Sized
 
 from . import _library as c
-from ._run import Box, Frame, Run, _warn, words_of
+from ._forms import FORMS, FormWriter, form_of
+from ._run import Box, Column, Frame, Rows, Run, RunSlice, _columns_of, _warn, words_of
 
 
 def _type_of(array: str, values: Any) -> int:
@@ -76,6 +77,37 @@ def ending_of(path: str) -> str:
     return ".dump" if name.startswith("dump") and ending not in (*BINARIES, ".vtk") else ending
 
 
+class _Given(Frame):
+    """Arrays of a program as a frame."""
+
+    def __init__(self, data: Mapping[str, Any], box: Any, step: int, time: float | None):
+        import numpy
+
+        _c_arrays(data)  # which raises the errors of arrays
+        self._run, self._kind, self._wanted, self._place = None, "dump", None, (_timestep(step), "")  # type: ignore[assignment]
+        self._arrays = {name: numpy.asarray(values) for name, values in data.items()}
+        self._bonds = "ends" in data or self._arrays.get("points", numpy.empty(0)).ndim == 3
+        points = self._arrays.pop("ends", None) if "ends" in data else self._arrays.pop("points", None)
+        kinds = {"O": str, "S": str, "b": numpy.uint8}
+        self._arrays = {name: values.astype(kinds.get(values.dtype.kind, values.dtype)) for name, values in self._arrays.items()}
+        columns = [Column(name, values.dtype.name, 1 if values.ndim == 1 else values.shape[1], "", "", ())
+                   for name, values in self._arrays.items()]
+        if points is not None:
+            parts = 6 if self._bonds else 3
+            if points.size != parts * len(points):
+                raise c.ArgumentError(f"array {self._points_name()!r}: expected {parts} numbers a row, got the shape {points.shape}")
+            self._arrays[self._points_name()] = points.astype(float).reshape(len(points), parts)
+        self._offered = _columns_of(columns, [], "" if points is None else self._points_name())
+        self._header = {"step": step, "time": float(step if time is None else time), "rows": len(next(iter(self._arrays.values()), ())),
+                        "box": None if box is None else box if isinstance(box, Box) else Box(*zip(*box))}
+
+    def _get(self, name: str) -> Any:
+        return self._arrays[name]
+
+    def read(self, progress: Callable[[float], Any] | None = None) -> Frame:
+        return self
+
+
 class Writer:
     """A file that is being written: see vtkgranular.write, which makes one.
 
@@ -90,8 +122,15 @@ class Writer:
                  numbers: str = "", label: str = "", scaled: bool = True, image: bool = False, sort: bool = False, threads: int = 0,
                  progress: Callable[[float], Any] | None = None, durable: bool | None = None):
         self._pointer: Any = None
+        self._form: FormWriter | None = None
         self.path = os.fsdecode(path)
-        self._finished = False
+        self._finished, self._sort = False, sort
+        if form_of(self.path) and not style:
+            others = {"dialect": dialect, "numbers": numbers, "label": label, "scaled": not scaled, "image": image}
+            if any(others.values()):
+                named = ", ".join(name for name, value in others.items() if value)
+                raise c.ArgumentError(f"{c.shown(self.path)}: expected no {named}, which dumps have, got a name that ends in {form_of(self.path)}")
+            self._form = FormWriter(self.path, words_of(columns), durable)
         self._calls = c.Calls(progress, _warn)
         self._format = given = c.Format()
         c.library().granular_format_init(c.byref(given))
@@ -108,7 +147,7 @@ class Writer:
         kind = "" if frame is None else "local" if frame._is_lines() else frame._kind
         known = (*DUMPS, *BINARIES, *STYLES, *((".vtk",) if kind in ("euler", "decomposition") else ()))
         if not given.style and ending_of(self.path) not in known:
-            raise c.ArgumentError(f"expected a name that ends in one of {', '.join(known)} (text may be compressed: .gz, .zst), or a style, "
+            raise c.ArgumentError(f"expected a name that ends in one of {', '.join((*known, *FORMS))} (text may be compressed: .gz, .zst), or a style, "
                                   f"got {self.path!r}")
         if frame is not None:
             given.style = given.style or (kind if kind in STYLES.values() else "").encode()
@@ -134,15 +173,21 @@ class Writer:
             raise c.ArgumentError(f"{c.shown(self.path)}: expected a file that is being written, got one that is finished")
         if not isinstance(data, (Frame, Mapping)):
             raise c.ArgumentError(f"{c.shown(self.path)}: expected a frame, or arrays by their names, got {type(data).__name__}")
+        if isinstance(data, Frame) and data._run._ranks and data._run._ranks.size > 1:
+            raise c.ArgumentError(f"{c.shown(self.path)}: expected arrays, or a frame of a run without ranks, got one of which this rank has a "
+                                  "part: vtkgranular.save writes one file in pvbatch")
+        if self._form:
+            import numpy
+
+            frame = data if isinstance(data, Frame) else _Given(data, box, step, time)
+            self._form.add(Rows(frame, numpy.argsort(frame["id"], kind="stable")) if self._sort else frame)
+            return
         library = c.library()
         with self._calls:
             if isinstance(data, Frame):
-                if data._run._ranks and data._run._ranks.size > 1:
-                    raise c.ArgumentError(f"{c.shown(self.path)}: expected arrays, or a frame of a run without ranks, got one of which this "
-                                          "rank has a part: vtkgranular.save writes one file in pvbatch")
                 if not self._pointer:
                     self._create(data, False, "")
-                library.granular_write_frame(self._pointer, data._to_write())
+                data._write(self._pointer)
                 return
             content = c.Content()
             library.granular_content_init(c.byref(content))
@@ -164,13 +209,18 @@ class Writer:
         if self._finished:
             return
         self._finished, pointer, self._pointer = True, self._pointer, None
-        if not pointer:
+        if not (self._form._written if self._form else pointer):
             raise c.ArgumentError(f"{c.shown(self.path)}: expected at least one frame, got none")
-        c.library().granular_finish(pointer)
+        if self._form:
+            self._form.finish()
+        else:
+            c.library().granular_finish(pointer)
 
     def abandon(self) -> None:
         """Ends without the file; the old one is untouched."""
         self._finished, pointer, self._pointer = True, self._pointer, None
+        if self._form:
+            self._form.abandon()
         if pointer:
             c.library().granular_abandon(pointer)
 
@@ -195,9 +245,11 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
 
     path      the file. Its ending chooses the format: .bonds (contacts and bonds), .euler (cells), .decomposition (subdomains),
               .bin and .lammpsbin (binary dumps), .dump, .lammpstrj, .liggghts, .lammps, .dmp and names that begin with "dump" (text),
-              compressed if .gz or .zst follows. With `*` in the name, which stands for the timestep, each frame has a file.
-    data      a Frame; a Run, a slice of one or an iterable of frames; or arrays by their names: "points", shape (n, 3), and any
-              others with n rows. See vtkgranular.Writer for lines, cells and subdomains.
+              compressed if .gz or .zst follows; .csv (a table), .npz (numpy), .vtp, .vtu and .vtkhdf (VTK). With `*` in the name,
+              which stands for the timestep, each frame has a file. Without it, the last four hold one frame, and the rows of a
+              table of several frames begin with step and time. Tables have the fewest digits that read back as the same numbers.
+    data      a Frame, or some rows of one: frame[frame["type"] == 1]; a Run, a slice of one or an iterable of frames; or arrays by
+              their names: "points", shape (n, 3), and any others with n rows. See vtkgranular.Writer for lines, cells and subdomains.
     box       a vtkgranular.Box, or three pairs of bounds; None: made from the bounds of the particles. Box, step, time and units
               belong to arrays; frames have their own.
     style     "custom", "atom", "local", "euler", "decomposition", with any name; empty: by the data and the ending
@@ -216,8 +268,9 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
     frames are there. A file of the run that a frame comes from, under any name, is replaced after the last frame.
 
     Raises vtkgranular.Error with path and column; vtkgranular.ArgumentError for arrays of a wrong shape or type, masked values, two arrays
-    with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame. Two frames
-    of one timestep are an error. It is an error to replace a file of the run that has an incomplete frame, because a simulation may
+    with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame; ImportError
+    where VTK or its writer is missing. Two frames of one timestep are an error but in a table, and so are frames with other columns
+    there. It is an error to replace a file of the run that has an incomplete frame, because a simulation may
     be writing it, or pieces of frames.
     """
     is_arrays = isinstance(data, Mapping) and not isinstance(data, Frame)
@@ -231,6 +284,9 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
 
     with Writer(path, style, dialect, columns, numbers, label, scaled, image, sort, threads, within(0.5),
                 durable) as writer:
+        if writer._form and isinstance(frames, (Run, RunSlice)):
+            for step in frames.steps.tolist():
+                writer._form.expect_other(frames._run_of(), writer._form.path_of(step))
         for frame in frames:
             if is_arrays:
                 writer.write(frame, box, step, time, units)  # type: ignore[arg-type]
