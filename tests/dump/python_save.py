@@ -46,7 +46,7 @@ vg.save(particles, "a.dump.gz")
 begins("a.dump.gz", b"\x1f\x8b")
 vg.save(particles, "a.bin")
 begins("a.bin", b"\xf6\xff\xff\xff\xff\xff\xff\xffDUMPCUSTOM")
-for name, text in (("a.vtp", b"<"), ("a.vtk", b"# vtk DataFile"), ("a.csv", b'"'), ("a.ply", b"ply")):
+for name, text in (("a.vtp", b"<"), ("a.vtk", b"# vtk DataFile"), ("a.csv", b"x,y,z,id,type,"), ("a.ply", b"ply")):
     vg.save(particles, name)
     begins(name, text)
 for name in ("a.bonds", "a.dump", "a.dump.gz"):
@@ -88,7 +88,7 @@ for name, kind in (("b.vtp", XMLPolyDataReader), ("b.vtu", XMLUnstructuredGridRe
 with tempfile.TemporaryDirectory(dir="/dev/shm") as disk:
     os.symlink(os.path.join(disk, "behind.txt"), "link.csv")
     vg.save(particles, "link.csv", last)
-    begins("link.csv", b'"')
+    begins("link.csv", b"x,y,z,id,")
     assert os.path.islink("link.csv") and os.listdir(disk) == ["behind.txt"]
     os.remove("link.csv")
 os.symlink("nowhere", "numbered_0.dump")
@@ -99,10 +99,15 @@ with open("chosen.vtp") as file:
     assert 'format="ascii"' in file.read()
 
 # all frames by ParaView's writers, which call WriteTimeSteps by several names and number the files themselves
-for ending in ("vtp", "csv"):
-    vg.save(particles, f"all.{ending}", WriteTimeSteps=1)
-    written = [name for name in os.listdir() if name.startswith("all") and name.endswith(ending)]
-    assert len(written) == len(particles.TimestepValues) or ending == "csv", written
+for name, files in (("all.vtp", 3), ("table.csv", 1), ("table_*.csv", 3), ("words.tsv", 1)):
+    vg.save(particles, name, WriteTimeSteps=1)
+    assert len(glob.glob("*".join(os.path.splitext(name)))) >= files, name
+    if "csv" in name:  # as the command writes them
+        assert main(["convert", all_particles, "of_command_" + name, "--quiet"]) == 0
+        for each in glob.glob("of_command_" + name):
+            assert filecmp.cmp(each, each[len("of_command_"):], shallow=False), each
+vg.save(particles, "words.tsv", last)
+assert numpy.array_equal(numpy.genfromtxt("words.tsv", names=True)["radius"], whole["radius"])
 refused(particles, "all_*.vtp", "WriteTimeSteps", "got 'all_*.vtp'")
 
 # what no writer has for such data

@@ -35,6 +35,10 @@ def local():
     # others keep their names
     assert b"NUMBER OF ATOMS\n70\n" in saved(reader, "ends.dump", writer="GranularDumpWriter", Columns="x y z")
     assert saved(reader, "lines.dump") == lines
+    # a table, whose first frame is empty
+    table = saved(reader, "all.csv", WriteTimeSteps=1)
+    assert table.startswith(b"step,time,x1,y1,z1,x2,y2,z2,id1,id2,periodic,forcex,")
+    assert [table.count(b"\n%d," % step) for step in (0, 1000, 2000, 3000, 4000)] == [0, 4, 35, 108, 261]
     SaveData("paraview.vtp", reader)
     assert saved_data(OutputPort(reader, 1), "paraview.csv").startswith(b'"')
 

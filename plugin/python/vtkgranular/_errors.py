@@ -38,6 +38,18 @@ def upstream(source: Any) -> list[Any]:
     return [servermanager._getPyProxy(proxy) for proxy in reversed(found)]
 
 
+def times_of(proxy: Any) -> list[float]:
+    """Returns the times that a source or filter has, ascending; on a server, those of the sources before it."""
+    proxy.UpdatePipelineInformation()
+    algorithm = proxy.GetClientSideObject()
+    if algorithm:
+        from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+        return sorted(algorithm.GetOutputInformation(proxy.Port).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS()) or ())
+    sources = [each for each in upstream(proxy) if each.SMProxy.GetProperty("TimestepValues")]
+    return sorted({time for each in sources for time in each.TimestepValues})
+
+
 def message_of(source: Any) -> str:
     """Returns the error of the last update of a source of this plugin; of others an empty text."""
     if not source.SMProxy.GetProperty("ErrorMessage"):

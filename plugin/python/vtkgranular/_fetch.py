@@ -85,6 +85,49 @@ class _Image:
         return order(points, self.dimensions), order(points[corners].mean(axis=1) - steps / 2, self.dimensions - 1)
 
 
+def fetch_groups(proxy: Any, port: int | str | None = None, time: float | None = None) -> dict[str, dict[str, numpy.ndarray]]:
+    """Returns what fetch returns in groups: "places", the point arrays in "points", "cells", "rows" of tables, "fields" and "image"."""
+    import numpy
+
+    update(proxy, time)
+    outputs = output_names(proxy)
+    if port in outputs:
+        port = outputs.index(port)
+    elif port is None:
+        port = proxy.Port
+    if not (isinstance(port, int) and 0 <= port < len(outputs)):
+        raise ValueError(f"expected an output of {', '.join(outputs)}, got {port}")
+    information = proxy.GetDataInformation(port)
+    image = _Image(information) if information.GetDataClassName() == "vtkImageData" else None
+    data = _whole(_bring(proxy, port))
+    groups: dict[str, dict[str, numpy.ndarray]] = {name: {} for name in ("places", "points", "cells", "rows", "fields", "image")}
+    if data is None:
+        return groups
+    if image is None and data.IsA("vtkPointSet"):
+        points = data.GetPoints()
+        groups["places"]["points"] = _to_numpy(points.GetData()) if points else numpy.empty((0, 3))
+    kinds = {"rows": 6} if data.IsA("vtkTable") else {"points": 0, "cells": 1}  # numbers of vtkDataObject::AttributeTypes
+    orders = image.orders(data) if image and data.IsA("vtkUnstructuredGrid") else [slice(None)] * 2
+    algorithm = proxy.GetClientSideObject()
+    own = algorithm.GetOutputDataObject(port) if algorithm else None
+    for (name, kind), order in zip(kinds.items(), orders):
+        # ParaView puts the arrays of several ranks into another order
+        for group in (own.GetAttributes(kind) if own else None, data.GetAttributes(kind)):
+            for i in range(group.GetNumberOfArrays() if group else 0):
+                array = data.GetAttributes(kind).GetAbstractArray(group.GetArrayName(i) or "")
+                if array:
+                    groups[name].setdefault(array.GetName(), _to_numpy(array)[order])
+    fields = data.GetFieldData()
+    for i in range(fields.GetNumberOfArrays()):
+        array = fields.GetAbstractArray(i)
+        if array.GetName():
+            values = _to_numpy(array)
+            groups["fields"][array.GetName()] = values[0] if len(values) == 1 else values
+    if image:
+        groups["image"] = {name: getattr(image, name) for name in ("dimensions", "origin", "spacing")}
+    return groups
+
+
 def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) -> dict[str, numpy.ndarray]:
     """Returns what a source or filter holds as a dict of numpy arrays.
 
@@ -104,39 +147,7 @@ def fetch(proxy: Any, port: int | str | None = None, time: float | None = None) 
     pipeline's memory, which stays as long as they do; copy an array to change it. Raises RuntimeError as vtkgranular.update does,
     ValueError for an output that there is not.
     """
-    import numpy
-
-    update(proxy, time)
-    outputs = output_names(proxy)
-    if port in outputs:
-        port = outputs.index(port)
-    elif port is None:
-        port = proxy.Port
-    if not (isinstance(port, int) and 0 <= port < len(outputs)):
-        raise ValueError(f"expected an output of {', '.join(outputs)}, got {port}")
-    information = proxy.GetDataInformation(port)
-    image = _Image(information) if information.GetDataClassName() == "vtkImageData" else None
-    data = _whole(_bring(proxy, port))
     found: dict[str, numpy.ndarray] = {}
-    if data is None:
-        return found
-    if image is None and data.IsA("vtkPointSet"):
-        points = data.GetPoints()
-        found["points"] = _to_numpy(points.GetData()) if points else numpy.empty((0, 3))
-    groups = [data.GetRowData()] if data.IsA("vtkTable") else [data.GetPointData(), data.GetCellData()]
-    orders = image.orders(data) if image and data.IsA("vtkUnstructuredGrid") else [slice(None)] * 2
-    for group, order in zip(groups, orders):
-        for i in range(group.GetNumberOfArrays()):
-            array = group.GetAbstractArray(i)
-            if array.GetName():
-                found.setdefault(array.GetName(), _to_numpy(array)[order])
-    fields = data.GetFieldData()
-    for i in range(fields.GetNumberOfArrays()):
-        array = fields.GetAbstractArray(i)
-        if array.GetName():
-            values = _to_numpy(array)
-            found.setdefault(array.GetName(), values[0] if len(values) == 1 else values)
-    if image:
-        for name in ("dimensions", "origin", "spacing"):
-            found.setdefault(name, getattr(image, name))
+    for group in fetch_groups(proxy, port, time).values():
+        found |= {name: values for name, values in group.items() if name not in found}
     return found

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import glob
 import html
 import os
 import re
 from typing import Any, Callable, Iterator
 
-from ._errors import expect_utf8, output_names, raised, update, upstream
+from ._errors import expect_utf8, output_names, raised, times_of, update, upstream
+from ._fetch import fetch_groups
 from ._inline import put_inline
 from ._library import shown
 from ._whole_file import whole_files
-from ._write import BINARIES, DUMPS, ending_of
+from ._write import BINARIES, DUMPS, Writer, ending_of
 
 # For each kind of data its writer, and the endings that are this writer's.
 _WRITERS = {
@@ -188,15 +190,17 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
 
     if "*" in path:
         raise ValueError(f"expected a name without *, got '{shown(path)}': ParaView's writers number the files of WriteTimeSteps themselves")
+    known = simple.CreateWriter(path, output).ListProperties()
     if "WriteTimeSteps" in properties:  # which ParaView's writers call by several names
-        known = simple.CreateWriter(path, output).ListProperties()
         names = [name for name in known if re.fullmatch("Write(all)?timestepsasfileseries|WriteTimeSteps",
                                                         name, re.IGNORECASE)]
         if not names:
             raise AttributeError(f"{shown(path)}: ParaView's writer of this format has no WriteTimeSteps")
         properties = {names[0] if name == "WriteTimeSteps" else name: value for name, value in properties.items()}
+    if "Precision" in known:  # of a text: all digits
+        properties = {"Precision": 17, **properties}
     if servermanager.ActiveConnection.IsRemote():  # the files are the server's
-        if "DataMode" in simple.CreateWriter(path, output).ListProperties():
+        if "DataMode" in known:
             properties = {"DataMode": "Binary", **properties}
         simple.SaveData(path, output, **properties)
         return
@@ -229,6 +233,49 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
         _on_first(path, finish)
 
 
+def _rows_of(output: Any) -> tuple[dict[str, Any], Any]:
+    """Returns the rows of an output by the names of their arrays, and its timestep, or None: rows of a table, lines, cells, or points."""
+    import numpy
+
+    groups = fetch_groups(output)
+    rows, places, image = (groups[name] for name in ("rows", "places", "image"))
+    of_cells = groups["cells"] and (not groups["points"] or _kind(output) in ("cells", "subdomains"))
+    if image:
+        counts = numpy.maximum(image["dimensions"] - 1, 1) if of_cells else image["dimensions"]
+        k, j, i = numpy.indices(counts[::-1]).reshape(3, -1)
+        places = {"points": image["origin"] + (numpy.stack([i, j, k], axis=1) + (0.5 if of_cells else 0)) * image["spacing"]}
+    elif of_cells:
+        ends, count = places["points"], len(next(iter(groups["cells"].values())))
+        places = {"points": ends.reshape(count, 2, 3)} if len(ends) == 2 * count else {}
+    return {**places, **(rows or groups["cells" if of_cells else "points"])}, groups["fields"].get("timestep")
+
+
+def _save_table(output: Any, path: str, given: dict[str, Any]) -> None:
+    """Writes a table of the frame now shown, or of all frames."""
+    properties = {"WriteTimeSteps": 0, "Columns": "", **given}
+    if len(properties) > 2:
+        raise AttributeError(f"{shown(path)}: expected properties of WriteTimeSteps and Columns, got {', '.join(given)}")
+    inputs = _inputs(output, True) | _inputs(output, False)
+    with contextlib.ExitStack() as stack:
+        writer: Any = None
+
+        def write(rows: dict[str, Any], step: int, time: float | None) -> str:
+            nonlocal writer
+            name = os.path.join(os.path.dirname(path), os.path.basename(path).replace("*", str(step)))
+            if _is_one_of(name, inputs):
+                raise ValueError(f"expected another file to write, got one that is read: {shown(name)}")
+            writer = writer or stack.enter_context(Writer(os.path.abspath(path), columns=properties["Columns"]))
+            writer.write(rows, step=step, time=time)
+            return ""
+
+        for number, time in enumerate(times_of(output) or [None] if properties["WriteTimeSteps"] else [None]):
+            if time is not None:
+                update(output, time)
+            rows, step = _rows_of(output)
+            _on_first(path, functools.partial(write, rows, number if step is None else int(step), time))
+        _on_first(path, lambda: writer.finish() or "")
+
+
 def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, writer: str | None = None,
          **properties: Any) -> None:
     """Writes what a source or filter shows, in the format that fits the data and the name.
@@ -239,9 +286,12 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 lines or rows  of contacts and bonds: .bonds, or the endings of text dumps
                 subdomains     .decomposition, .vtk, .vtu
                 cells          .euler, .vtk
-                All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .csv, .stl and .ply, go to
+                .csv is a table of points, lines, cells or rows, as vtkgranular.write has it, with the fewest digits that read back as
+                the same numbers. WriteTimeSteps=1 puts all frames into it, whose rows begin with step and time, or with `*` in
+                the name into a file each. Columns chooses columns. It is written where the script runs.
+                All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .tsv, .stl and .ply, go to
                 ParaView's writers. VTK's XML gets inline data, as with DataMode Binary, which all versions of libexpat read.
-                Text dumps are compressed if .gz or .zst follows. In the names of this plugin's formats `*` stands for the
+                Text dumps are compressed if .gz or .zst follows. In the names of tables and of this plugin's formats `*` stands for the
                 timestep, and in those of dumps `%` for the rank.
     time        the time to write, as for vtkgranular.update
     writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
@@ -260,6 +310,9 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
 
     path = expect_utf8(os.fsdecode(path))
     update(proxy, time)
+    if writer is None and os.path.splitext(path)[1].lower() == ".csv":
+        _save_table(proxy, path, properties)
+        return
     writer = writer or _choose(proxy, path)
     if writer is None:
         _save_by_paraview(proxy, path, properties)
