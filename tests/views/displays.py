@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What comes out of ParaView's filters as particles is shown as particles, and other things are not; while the camera moves, few particles
-stand for many."""
+"""What comes out of ParaView's filters as particles is shown as particles, and other things are not; only arrays of particles are colours;
+while the camera moves, few particles stand for many."""
 import os
 
 import numpy
@@ -36,6 +36,10 @@ for name, source in groups.items():
     assert 0 < source.GetDataInformation().GetNumberOfPoints() <= 1200, name
     assert Show(source, view).Representation == "Grains", name
     Hide(source, view)
+colours = Show(reader, view).SMProxy.GetProperty("ColorArrayName").FindDomain("vtkSMArrayListDomain")
+names = [colours.GetString(i) for i in range(colours.GetNumberOfStrings())]
+assert names == sorted(["f", "id", "image", "mass", "omega", "radius", "type", "v"]), names
+Hide(reader, view)
 view.ViewTime = 0  # a frame without particles
 early = Clip(Input=reader, ClipType="Box")
 early.UpdatePipeline(0)

@@ -5,11 +5,14 @@
 
 #include "granular/geometry/box.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -65,14 +68,20 @@ void FillBoxData(vtkFieldData* data, const granular::Box& box)
     const std::vector<double> values = Values(vector);
     vectors.insert(vectors.end(), values.begin(), values.end());
   }
-  data->AddArray(MakeDoubles("BoxOrigin", Values(box.origin)));
-  data->AddArray(MakeDoubles("BoxVectors", vectors));
+  AddFact(data, MakeDoubles("BoxOrigin", Values(box.origin)));
+  AddFact(data, MakeDoubles("BoxVectors", vectors));
   if (!box.general)
   {
-    data->AddArray(MakeDoubles("BoxBounds", Bounds(box)));
+    AddFact(data, MakeDoubles("BoxBounds", Bounds(box)));
   }
-  data->AddArray(MakeStrings("Boundary", { box.boundary }));
+  AddFact(data, MakeStrings("Boundary", { box.boundary }));
 }
+}
+
+void AddFact(vtkFieldData* data, vtkAbstractArray* fact)
+{
+  fact->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+  data->AddArray(fact);
 }
 
 void FillParticles(vtkPolyData* output, granular::Table& frame, bool singlePrecision,
@@ -132,34 +141,34 @@ bool FillBox(vtkUnstructuredGrid* output, const granular::Box& box,
 void FillHeader(vtkFieldData* data, const granular::FrameHeader& header,
   granular::Coordinates coordinates, const granular::Vector3& pointOrigin)
 {
-  data->AddArray(MakeStrings("Coordinates", { granular::to_string(coordinates) }));
-  data->AddArray(
-    MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
+  AddFact(data, MakeStrings("Coordinates", { granular::to_string(coordinates) }));
+  AddFact(
+    data, MakeDoubles("PointOrigin", std::vector<double>(pointOrigin.begin(), pointOrigin.end())));
   if (header.has_box)
   {
     FillBoxData(data, header.box);
   }
-  data->AddArray(ArrayOf<vtkTypeInt64Array>("timestep", std::array{ header.timestep }));
+  AddFact(data, ArrayOf<vtkTypeInt64Array>("timestep", std::array{ header.timestep }));
   if (!header.label.empty())
   {
-    data->AddArray(MakeStrings("label", { header.label }));
+    AddFact(data, MakeStrings("label", { header.label }));
   }
   if (!header.counted.empty() && header.counted != "ATOMS")
   {
-    data->AddArray(MakeStrings("RowLabel", { header.counted }));
+    AddFact(data, MakeStrings("RowLabel", { header.counted }));
   }
   if (!header.units.empty())
   {
-    data->AddArray(MakeStrings("units", { header.units }));
+    AddFact(data, MakeStrings("units", { header.units }));
   }
   if (header.time)
   {
-    data->AddArray(MakeDoubles("time", { *header.time }));
+    AddFact(data, MakeDoubles("time", { *header.time }));
   }
   if (header.dialect)
   {
     const bool lammps = *header.dialect == granular::Dialect::Lammps;
-    data->AddArray(MakeStrings("Dialect", { lammps ? "LAMMPS" : "LIGGGHTS" }));
+    AddFact(data, MakeStrings("Dialect", { lammps ? "LAMMPS" : "LIGGGHTS" }));
   }
 }
 
@@ -176,9 +185,8 @@ void FillLeftOut(vtkInformationVector* outputs, const granular::Request& request
   }
   for (int port = 0; !names.empty() && port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    vtkDataObject::GetData(outputs, port)
-      ->GetFieldData()
-      ->AddArray(MakeStrings("ParticlesLeftOut", names));
+    AddFact(vtkDataObject::GetData(outputs, port)->GetFieldData(),
+      MakeStrings("ParticlesLeftOut", names));
   }
 }
 
@@ -199,24 +207,24 @@ void FillFieldData(
   FillHeader(data, frame.header, frame.coordinates, pointOrigin);
   if (!frame.type_names.empty())
   {
-    data->AddArray(MakeStrings("TypeNames", frame.type_names));
+    AddFact(data, MakeStrings("TypeNames", frame.type_names));
   }
   const granular::ShapeSizes sizes =
     granular::find_shape_sizes(frame.schema, frame.header.dialect == granular::Dialect::Lammps);
   if (sizes != granular::ShapeSizes::None)
   {
     const bool half = sizes == granular::ShapeSizes::HalfAxes;
-    data->AddArray(MakeStrings("ShapeSizes", { half ? "HalfAxes" : "Diameters" }));
+    AddFact(data, MakeStrings("ShapeSizes", { half ? "HalfAxes" : "Diameters" }));
   }
   std::vector<std::string> names;
   for (const granular::ColumnInfo& column : frame.schema.columns())
   {
     names.push_back(column.name);
   }
-  data->AddArray(MakeStrings("Columns", names));
+  AddFact(data, MakeStrings("Columns", names));
   if (frame.header.digits.size() == names.size())
   {
-    data->AddArray(ArrayOf<vtkIntArray>("ColumnDigits", frame.header.digits));
+    AddFact(data, ArrayOf<vtkIntArray>("ColumnDigits", frame.header.digits));
   }
 }
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+class vtkAbstractArray;
 class vtkFieldData;
 class vtkInformationVector;
 class vtkPolyData;
@@ -15,6 +16,11 @@ class vtkUnstructuredGrid;
 
 namespace vtkGranularPrivate
 {
+/**
+ * Adds an array that describes a frame, such as its box: ParaView's lists of colours leave it out.
+ */
+void AddFact(vtkFieldData* data, vtkAbstractArray* fact);
+
 class VertexCache;
 
 /**

@@ -284,7 +284,7 @@ void vtkGranularSeriesReader::Internals::FillParticles(
   }
   if (!frame.groups.empty())
   {
-    particles->GetFieldData()->AddArray(MakeStrings("Groups", frame.groups));
+    AddFact(particles->GetFieldData(), MakeStrings("Groups", frame.groups));
   }
   FillLeftOut(shown.Outputs, request);
 }
