@@ -4,6 +4,7 @@
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVDataInformation.h"
+#include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -36,6 +37,25 @@ bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
     std::ranges::find(ParticleFilters, name) != std::end(ParticleFilters);
 }
 
+// ParaView hides the input of Clip when its result is first shown in the window, but only an input that is a surface: particles would
+// stay over the part of them that is left. The hints belong to all filters of this name, so that other displays set them back.
+void HideInput(vtkSMProxy* filter, bool ofParticles)
+{
+  vtkPVXMLElement* hints = filter->GetHints();
+  vtkPVXMLElement* hint = hints ? hints->FindNestedElementByName("Visibility") : nullptr;
+  const std::string mode = hint ? hint->GetAttributeOrEmpty("replace_input") : "";
+  if (ofParticles && mode == "2")
+  {
+    hint->SetAttribute("replace_input", "1");
+    hint->SetAttribute("replace_surfaces", "2");
+  }
+  else if (!ofParticles && hint && hint->GetAttribute("replace_surfaces"))
+  {
+    hint->SetAttribute("replace_input", "2");
+    hint->RemoveAttribute("replace_surfaces");
+  }
+}
+
 // Returns true if the input of a property is particles, and so are the data that it was made of: circles that a plane cuts out of
 // glyphs have as many lines as points, too.
 bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
@@ -66,10 +86,16 @@ vtkStandardNewMacro(vtkSMGranularGrainsDomain);
 int vtkSMGranularGrainsDomain::SetDefaultValues(vtkSMProperty* property, bool)
 {
   vtkSMProxy* display = property->GetParent();
-  if (display && display->GetProperty("Representation") &&
-    IsParticlesFromTheReaderOn(this->GetRequiredProperty("Input")))
+  vtkSMProperty* input = this->GetRequiredProperty("Input");
+  vtkSMProxy* shown = input ? vtkSMPropertyHelper(input).GetAsProxy(0) : nullptr;
+  if (display && shown && display->GetProperty("Representation"))
   {
-    vtkSMPropertyHelper(display, "Representation").Set("Grains");
+    const bool particles = IsParticlesFromTheReaderOn(input);
+    if (particles)
+    {
+      vtkSMPropertyHelper(display, "Representation").Set("Grains");
+    }
+    HideInput(shown, particles);
   }
   return 1;
 }

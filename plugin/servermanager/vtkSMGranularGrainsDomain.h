@@ -7,6 +7,7 @@
  * where particles are. The domain belongs to a property that representations have for it. It sets their property Representation to Grains
  * when they are made for particles: data with the field data `Coordinates` and `PointOrigin` of the readers and as many cells as points,
  * and so must be all data between the reader and these. Data without cells are particles if the reader or one of some filters made them.
+ * The window then hides the particles that the filter was given.
  *
  * Made for elements GranularGrainsDomain of the server manager's XML; the property Input is required.
  */

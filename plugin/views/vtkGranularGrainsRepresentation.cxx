@@ -2,16 +2,14 @@
 #include "vtkGranularGrainsRepresentation.h"
 
 #include "vtkBoundingBox.h"
-#include "vtkCommunicator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkFieldData.h"
+#include "vtkGranularEmptyFrame.h"
 #include "vtkGranularGrainBlocks.h"
 #include "vtkGranularGrainShapes.h"
 #include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLActor.h"
@@ -89,69 +87,6 @@ private:
   vtkDataObject* Data = nullptr; // only compared
   vtkMTimeType Time = 0;
 };
-
-// Returns the numbers of an array of field data, or nullptr where there is no such array.
-vtkDataArray* FindNumbers(vtkFieldData* fields, const char* name, vtkIdType count)
-{
-  vtkDataArray* array = fields ? fields->GetArray(name) : nullptr;
-  return array && array->GetNumberOfValues() == count ? array : nullptr;
-}
-
-// Adds the corners of the simulation box that field data speak of, where an actor puts them.
-void AddBox(vtkBoundingBox& bounds, vtkActor* actor, vtkFieldData* fields)
-{
-  vtkDataArray* origin = FindNumbers(fields, "BoxOrigin", 3);
-  vtkDataArray* edges = FindNumbers(fields, "BoxVectors", 9); // a, b, c
-  if (!origin || !edges)
-  {
-    return;
-  }
-  const auto number = [](vtkDataArray* of, int i) { // however they are dealt to tuples
-    return of->GetComponent(i / of->GetNumberOfComponents(), i % of->GetNumberOfComponents());
-  };
-  vtkDataArray* zero = FindNumbers(fields, "PointOrigin", 3);
-  const bool scaled = vtkGranularGrainBlocks::AreScaled(fields);
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    double place[4] = { 0.0, 0.0, 0.0, 1.0 };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = (scaled ? 0.0 : number(origin, axis)) - (zero ? number(zero, axis) : 0.0);
-      for (int edge = 0; edge < 3; ++edge)
-      {
-        const double unit = edge == axis ? 1.0 : 0.0;
-        place[axis] += (corner >> edge & 1) * (scaled ? unit : number(edges, 3 * edge + axis));
-      }
-    }
-    if (!actor->vtkProp3D::GetIsIdentity())
-    {
-      actor->GetMatrix()->MultiplyPoint(place, place);
-    }
-    bounds.AddPoint(place);
-  }
-}
-
-vtkIdType CountPoints(vtkDataObject* data)
-{
-  vtkIdType points = 0;
-  for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(data))
-  {
-    points += block->GetNumberOfPoints();
-  }
-  return points;
-}
-
-// Returns the number of points on all ranks. All must ask.
-vtkIdType CountOnRanks(vtkDataObject* data)
-{
-  vtkIdType here = CountPoints(data);
-  vtkIdType sum = here;
-  if (auto* ranks = vtkMultiProcessController::GetGlobalController())
-  {
-    ranks->AllReduce(&here, &sum, 1, vtkCommunicator::SUM_OP);
-  }
-  return sum;
-}
 
 // An actor whose bounds hold the spheres, not their centres alone: cullers and IceT go by them. It draws what its
 // mapper counts from a place where that belongs.
@@ -281,18 +216,9 @@ int vtkGranularGrainsRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_UPDATE())
   {
     double* bounds = static_cast<GrainsActor*>(this->Actor.Get())->GetBoundsOf(this->ProcessedData);
-    vtkBoundingBox box;
-    this->Grains = CountOnRanks(this->ProcessedData);
-    if (this->Grains == 0)
-    {
-      for (vtkDataSet* block : vtkCompositeDataSet::GetDataSets(this->ProcessedData))
-      {
-        AddBox(box, this->Actor, block->GetFieldData());
-      }
-    }
-    double boxBounds[6];
-    box.GetBounds(boxBounds);
-    vtkPVRenderView::SetGeometryBounds(inInfo, this, box.IsValid() ? boxBounds : bounds);
+    this->Grains = vtkGranularEmptyFrame::CountOnRanks(this->ProcessedData);
+    vtkGranularEmptyFrame::SetBounds(
+      inInfo, this, this->ProcessedData, this->Grains, this->Actor, bounds);
     if (!this->IsTranslucent())
     {
       outInfo->Remove(vtkPVRenderView::NEED_ORDERED_COMPOSITING());
@@ -307,7 +233,8 @@ int vtkGranularGrainsRepresentation::ProcessViewRequest(
   else if (request == vtkPVView::REQUEST_RENDER())
   {
     auto* mapper = static_cast<vtkGranularGrainBlocks*>(this->Mapper.Get());
-    const vtkIdType all = std::max(this->Grains, CountPoints(mapper->GetGrains()));
+    const vtkIdType all =
+      std::max(this->Grains, vtkGranularEmptyFrame::CountPoints(mapper->GetGrains()));
     const bool moving = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
     mapper->SetEvery(moving
         ? static_cast<vtkIdType>(std::ceil(static_cast<double>(all) / this->MostWhileMoving))

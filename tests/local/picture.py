@@ -52,7 +52,7 @@ view = CreateRenderView(ViewSize=[500, 500], OrientationAxesVisibility=0, UseCol
 view.ViewTime = 4000
 reader.CellArrayStatus = ["id1", "id2", "force"]
 shown = Show(reader, view)
-assert shown.Representation == "Surface", shown.Representation
+assert shown.Representation == "Contacts", shown.Representation
 tube = Tube(Input=reader, Radius=0.0006, NumberofSides=12)
 Hide(reader, view)
 display = Show(tube, view)

@@ -22,8 +22,8 @@ SESSIONS = (
     ("grains_[0-9]*.dump", "Dump", [({}, 0, (0, 1)), ({}, 1000, (1200, 1)), ({}, 2000, (1200, 1)), ({}, 1000, (1200, 1))],
      {"FileNames": ["/nowhere/gone.dump"]}, r"gone\.dump: cannot open: No such file or directory \(on rank 0 of 2\)",
      ({"FileNames": [os.path.join(GOOD, "grains_2000.dump")]}, 2000, (1200, 1))),
-    ("local/contacts.dump", "Local", [({}, 0, (0, 0)), ({}, 4000, (261, 261)), ({}, 1000, (4, 4))], {"Preset": "Bonds"},
-     "contacts.dump:1: expected the 9 columns of the preset Bonds", ({"Preset": "Automatic", "PeriodicLines": "MinimumImage"}, 2000, (35, 35))),
+    ("local/contacts.dump", "Local", [({}, 0, (0, 0, 1)), ({}, 4000, (261, 261, 1)), ({}, 1000, (4, 4, 1))], {"Preset": "Bonds"},
+     "contacts.dump:1: expected the 9 columns of the preset Bonds", ({"Preset": "Automatic", "PeriodicLines": "MinimumImage"}, 2000, (35, 35, 1))),
     ("restart/fibres.restart", "Restart", [({}, None, (31, 27, 1))], {"FileNames": [os.path.abspath("restart.cut")]},
      "restart.cut.*expected 31 particles of 3 processes",
      ({"FileNames": [os.path.join(GOOD, "restart/fibres.restart")], "PeriodicLines": "Split"}, None, (31, 28, 1))),
@@ -56,7 +56,8 @@ def dump(reader):
 def local(reader):
     assert list(reader.TimestepValues) == [0, 1000, 2000, 3000, 4000]
     assert reader.CellArrayStatus[:] == ["id1", "id2", "periodic", "force"], reader.CellArrayStatus[:]
-    server.wait_for("taken for the preset ContactsForce")
+    GranularLocalReader(FileNames=[os.path.join(GOOD, "local", "chain_bonds.dump")]).UpdatePipeline()
+    server.wait_for("taken for the preset BondTypeIdsForce")
     reader.PeriodicLines = "Split"
     drawn(Tube(Input=reader), 261, 4000)
     assert reader.CellData["row"].GetRange(0) == (0, 260), reader.CellData["row"].GetRange(0)

@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The window: open a run whose first frame is empty, Apply, last frame, save the state; load it in pvbatch.
 
-Then a Clip, and Apply: its particles come up as particles. The camera is where arithmetic puts it, around the box. The first picture shows the box and nothing else, the last one
-the particles of the file, pixel by pixel; pvbatch shows the same from the state."""
+The camera is where arithmetic puts it, around the box. The first picture shows the box and nothing else, the last one the particles of the
+file, pixel by pixel; pvbatch shows the same from the state."""
 import math
 import os
-import subprocess
 import sys
-from xml.sax.saxutils import quoteattr
 
 import numpy
 from discs import Camera
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
+from window import Window, run
 
 PIXELS = 500
 ANGLE = 30  # degrees, ParaView's default
@@ -25,45 +24,11 @@ view = GetActiveView()
 view.OrientationAxesVisibility = 0
 SaveScreenshot({path!r}, view, ImageResolution=[{pixels}, {pixels}])
 """
-CLIP = """
-from paraview.simple import *
-Clip(Input=GetActiveSource(), ClipType="Box")
-"""
-LOOK = """
-from paraview.simple import *
-with open("look.txt", "w") as file:
-    file.write(GetDisplayProperties().SMProxy.GetProperty("Representation").GetElement(0))
-"""
 
 
-def run(*command, **environment):
-    """Runs a program to its end and prints what it says; kills it after a minute."""
-    said = subprocess.run(command, env={**os.environ, **environment}, timeout=60, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    print(said.stdout, flush=True)
-    assert said.returncode == 0, f"exit status {said.returncode} of {command}"
-
-
-def script(name):
-    """Writes a script that saves a picture, and returns the scripts' path."""
-    with open(f"{name}.py", "w") as file:
-        file.write(PICTURE.format(path=os.path.abspath(f"{name}.png"), pixels=PIXELS))
-    return os.path.abspath(f"{name}.py")
-
-
-def event(widget, command, arguments=""):
-    """Returns an event of ParaView's own tests of its window."""
-    return f"<pqevent object={quoteattr('pqClientMainWindow/' + widget)} command={quoteattr(command)} " \
-           f"arguments={quoteattr(arguments)}/>"
-
-
-def in_shell(name, text=None):
-    """Returns the event of a script, or of a picture, that the window's Python shell runs or saves."""
-    if text:
-        with open(f"{name}.py", "w") as file:
-            file.write(text)
-    path = os.path.abspath(f"{name}.py") if text else script(name)
-    return event("pythonShellDock/pythonShell/consoleWidget", "executeCommand", f"exec(open({path!r}).read())")
+def picture(name):
+    """Returns a script that saves a picture."""
+    return PICTURE.format(path=os.path.abspath(f"{name}.png"), pixels=PIXELS)
 
 
 def read(name):
@@ -81,36 +46,23 @@ def drawn(pixels):
 
 
 # ---- in the window ----------------------------------------------------------------------------------
-for name in ("first.png", "last.png", "loaded.png", "look.txt", "session.pvsm"):
+for name in ("first.png", "last.png", "loaded.png", "session.pvsm"):
     if os.path.exists(name):
         os.remove(name)
-os.makedirs("home", exist_ok=True)
-os.chmod("home", 0o700)
-home = os.path.abspath("home")
 state = os.path.abspath("session.pvsm")
-with open("events.xml", "w") as file:
-    file.write("\n".join([
-        "<?xml version='1.0'?>", "<pqevents>",
-        event("propertiesDock/propertiesPanel/Accept", "activate"),
-        in_shell("first"),
-        event("VCRToolbar/actionVCRLastFrame", "activate"),
-        in_shell("last"),
-        event("menubar/menu_File", "activate", "actionFileSaveServerState"),
-        event("FileSaveServerStateDialog", "filesSelected", state),
-        in_shell("clip", CLIP),
-        event("propertiesDock/propertiesPanel/Accept", "activate"),
-        in_shell("look", LOOK),
-        "</pqevents>\n"]))
-# --dr and a home of its own: whatever the user has set in the window counts for nothing
-run(WINDOW, "--dr", DUMP, "--test-script=" + os.path.abspath("events.xml"), "--exit", HOME=home, XDG_RUNTIME_DIR=home)
-
-with open("look.txt") as file:
-    assert file.read() == "Grains", "the clip is not shown as particles"
+window = Window(WINDOW, DUMP)
+window.apply()
+window.in_shell(picture("first"))
+window.last_frame()
+window.in_shell(picture("last"))
+window.event("menubar/menu_File", "activate", "actionFileSaveServerState")
+window.event("FileSaveServerStateDialog", "filesSelected", state)
+window.play()
 
 # ---- in pvbatch -------------------------------------------------------------------------------------
 with open("load.py", "w") as file:
     file.write(f"from paraview.simple import *\nLoadState({state!r})\n"
-               f"SetActiveView(GetViews()[0])\nexec(open({script('loaded')!r}).read())\n")
+               f"SetActiveView(GetViews()[0])\n{picture('loaded')}")
 run(PVBATCH, "--dr", os.path.abspath("load.py"))
 
 # ---- what is to be seen -----------------------------------------------------------------------------

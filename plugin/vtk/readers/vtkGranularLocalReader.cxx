@@ -10,6 +10,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <memory>
@@ -49,7 +50,7 @@ struct vtkGranularLocalReader::Internals : vtkGranularSeriesReader::Internals
 vtkGranularLocalReader::vtkGranularLocalReader()
   : Superclass(std::make_unique<Internals>(this))
 {
-  this->SetPorts({}, { "vtkPolyData", "vtkTable" });
+  this->SetPorts({}, { "vtkPolyData", "vtkTable", "vtkUnstructuredGrid" });
 }
 
 //------------------------------------------------------------------------------
@@ -60,4 +61,5 @@ int vtkGranularLocalReader::CanReadFile(const char* fileName)
 
 vtkGranularOutputMacro(vtkGranularLocalReader, GetOutput, vtkPolyData, 0);
 vtkGranularOutputMacro(vtkGranularLocalReader, GetRows, vtkTable, 1);
+vtkGranularOutputMacro(vtkGranularLocalReader, GetBox, vtkUnstructuredGrid, 2);
 vtkGranularPrintMacro(vtkGranularLocalReader, Preset, ColumnMap, PeriodicLines, PointOrigin);

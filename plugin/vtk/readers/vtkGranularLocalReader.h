@@ -18,7 +18,9 @@
  *   0 at the first end (vtkTypeInt32Array);
  * - columns of the file that are named `row` or `part` become `row_2` and `part_2` then.
  *
- * Both outputs carry the field data of vtkGranularDumpReader: PointOrigin, Columns, timestep, and the box if the file has one. A
+ * Output port 2 holds the simulation box (vtkUnstructuredGrid), one hexahedron, if the file has one.
+ *
+ * All outputs carry the field data of vtkGranularDumpReader: PointOrigin, Columns, timestep, and the box if the file has one. A
  * pipeline may ask for any piece of any number. The pieces hold each row once.
  */
 
@@ -32,6 +34,7 @@
 
 class vtkPolyData;
 class vtkTable;
+class vtkUnstructuredGrid;
 
 class VTKGRANULAR_EXPORT vtkGranularLocalReader : public vtkGranularSeriesReader
 {
@@ -49,6 +52,11 @@ public:
    * Returns the rows.
    */
   vtkTable* GetRows();
+
+  /**
+   * Returns the simulation box as one cell.
+   */
+  vtkUnstructuredGrid* GetBox();
 
   enum PresetType
   {

@@ -286,16 +286,17 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
         "name the particles in ColumnMap, as in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2" });
     return name_columns(columns);
   }
-  if (std::erase(as_long, fitting[0]); !as_long.empty())
+  const LocalPreset& found = *fitting[0];
+  if (as_long.size() > 1 &&
+    !are_forces(found, columns_for(found, columns, false), columns.size(), sample))
   {
+    const bool force = found.columns.find("force") != std::string_view::npos;
     notices.push_back({ where,
-      "the columns are not named: taken for the preset " + describe(*fitting[0]) +
-        ", which fits the values, and not for " +
-        join_words(as_long, " ", [](const LocalPreset* preset) { return preset->name; }) +
-        (fitting[0]->columns.find("force") != std::string_view::npos
-            ? "; that forces are forces, and not torques, the values do not say: see ColumnMap"
-            : "") });
+      "the columns are not named: taken for the preset " + describe(found) +
+        ", which fits the values; set Preset to it if that is right, otherwise name the columns in "
+        "ColumnMap" +
+        (force ? ", such as torque, not force" : "") });
   }
-  return name_columns(columns, *fitting[0]);
+  return name_columns(columns, found);
 }
 }

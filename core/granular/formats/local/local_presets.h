@@ -40,6 +40,10 @@ struct LocalSample
 bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
   const LocalSample& sample);
 
+/// Returns true if the values of force are such: of contacts, of which nearly all push. Torques of them do not.
+bool are_forces(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
+  const LocalSample& sample);
+
 /// Throws FormatError if rows contradict the names that a map with the keyword history gives to columns: it stands for as many
 /// columns as are left, so others are taken for the last ones of the compute where the file lacks these. Ids, types and flags are as
 /// above, areas not negative, and some contact points between the ends.
@@ -68,7 +72,7 @@ bool maps_lines(const std::string& map);
 bool say_what_they_are(const std::vector<std::string>& columns);
 
 /// Finds the meaning of columns: by their names if these give the positions of lines or their particles; otherwise by the
-/// only preset that fits the sample, with a notice that gives the reason if others have as many columns. If none fits, the
+/// only preset that fits the sample, with a notice if others have as many columns, unless the forces are seen to push. If none fits, the
 /// names count, with a notice that says how to get lines; so they do without rows. Throws FormatError that lists the presets if
 /// several fit, or some fit but for a few rows, which are damaged: they fit every second row.
 std::vector<std::string> find_columns(const std::vector<std::string>& columns,

@@ -127,6 +127,28 @@ public:
         [this](std::size_t row) { return this->is_between(row, "forcex", "forcey", "forcez"); });
   }
 
+  /// Forces push most particles apart, which torques do not; of few rows that says nothing.
+  bool forces_push() const
+  {
+    constexpr std::size_t least_rows = 10;
+    double along = 0; // the line, away from the other particle or the wall
+    double all = 0;
+    for (std::size_t row = 0; this->has("forcex") && this->has("x1") && row < sample_.rows; ++row)
+    {
+      const Vector3 force = this->vector(row, "forcex", "forcey", "forcez");
+      const Vector3 first = this->place(row, this->has("mesh") ? 2 : 1);
+      const Vector3 second = this->place(row, this->has("mesh") ? 1 : 2);
+      const Vector3 line = { first[0] - second[0], first[1] - second[1], first[2] - second[2] };
+      const double length = std::hypot(line[0], line[1], line[2]);
+      if (length > 0 && !(this->has("periodic") && this->value(row, "periodic") != 0))
+      {
+        along += (force[0] * line[0] + force[1] * line[1] + force[2] * line[2]) / length;
+        all += std::hypot(force[0], force[1], force[2]);
+      }
+    }
+    return sample_.rows >= least_rows && along > all / 2;
+  }
+
   bool flags_fit() const
   {
     const auto fits = [this](std::size_t row)
@@ -243,6 +265,12 @@ bool fits(const LocalPreset& preset, std::span<const std::size_t> columns, std::
   const PresetRows rows(preset, columns, all, sample);
   return rows.broken_rule().text.empty() && rows.ends_differ() && rows.few_types() &&
     rows.forces_are_no_points() && rows.flags_fit() && rows.places_fit();
+}
+
+bool are_forces(const LocalPreset& preset, std::span<const std::size_t> columns, std::size_t all,
+  const LocalSample& sample)
+{
+  return PresetRows(preset, columns, all, sample).forces_push();
 }
 
 void check_history(const std::vector<std::string>& columns, const std::vector<std::string>& names,

@@ -12,7 +12,7 @@ MODULE = __package__
 #: Properties that need a compiled class, and are not there.
 _MISSING = {"RefreshOnUpdate", "CheckOverlap", "CheckGaps"}
 _BASES = ("internal_sources", "internal_filters", "internal_writers")
-_TAGS = {"GranularParticleReaderProxy": "SourceProxy", "PWriterProxy": "WriterProxy"}
+_TAGS = {"GranularLocalReaderProxy": "SourceProxy", "GranularParticleReaderProxy": "SourceProxy", "PWriterProxy": "WriterProxy"}
 
 #: Spheres by ParaView's own Point Gaussian, with the radii of the point array `radius`, as a representation of all points.
 _REPRESENTATIONS = """

@@ -161,6 +161,13 @@ class Reader(Algorithm):
         """Fills the outputs with a frame."""
         raise NotImplementedError
 
+    def fill_box(self, run: Run, number: int, piece: dict[str, int], table: Table, box: Any) -> None:
+        """Fills an output with the box of a frame, on the first rank alone."""
+        if piece["piece"] == 0 and table.header.has_box and not table.fill_box(box):
+            self._told.warn(f"{c.shown(run._place_of(number)[1][1])}: the box is not finite and not shown")
+        table.add_header(box.GetFieldData())
+        table.add_columns(box.GetFieldData())
+
 
 def _columns(run: Run, number: int, table: int) -> list[tuple[str, bool]]:
     """Returns the names of the arrays of a table of a frame, or of every frame, and whether each is usual."""
@@ -181,11 +188,9 @@ class _Particles(Reader):
         table = self.read(run, number, piece)
         particles, box = outputs[0], outputs[-1]
         fill_particles(particles, table, self.values.get("Vertices", 2))
-        if piece["piece"] == 0 and not table.fill_box(box):
-            self._told.warn(f"{c.shown(run._place_of(number)[1][1])}: the box is not finite and not shown")
-        for output in (particles, box):
-            table.add_header(output.GetFieldData())
-            table.add_columns(output.GetFieldData())
+        table.add_header(particles.GetFieldData())
+        table.add_columns(particles.GetFieldData())
+        self.fill_box(run, number, piece, table, box)
         if len(outputs) == 3:
             bonds = self.read(run, number, piece, 1)
             if not bonds.has_lines:
@@ -222,7 +227,7 @@ class GranularDataFileReader(_Particles):
 
 
 class GranularLocalReader(Reader):
-    kind, ports, tables = "local", ("vtkPolyData", "vtkTable"), ("Cells",)
+    kind, ports, tables = "local", ("vtkPolyData", "vtkTable", "vtkUnstructuredGrid"), ("Cells",)
 
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         table = self.read(run, number, piece)
@@ -232,6 +237,7 @@ class GranularLocalReader(Reader):
             outputs[1].GetRowData().AddArray(array)
         rows.add_header(outputs[1].GetFieldData())
         rows.add_columns(outputs[1].GetFieldData())
+        self.fill_box(run, number, piece, table, outputs[2])
 
 
 class GranularDecompositionReader(Reader):

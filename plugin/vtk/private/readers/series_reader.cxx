@@ -243,6 +243,20 @@ void vtkGranularSeriesReader::Internals::Show(Shown& shown)
 }
 
 //------------------------------------------------------------------------------
+void vtkGranularSeriesReader::Internals::FillBox(
+  Shown& shown, const granular::Table& rows, const granular::Request& request)
+{
+  auto* box =
+    vtkUnstructuredGrid::GetData(shown.Outputs, shown.Outputs->GetNumberOfInformationObjects() - 1);
+  if (shown.Piece.Piece == 0 && rows.header.has_box &&
+    !vtkGranularPrivate::FillBox(box, rows.header.box, rows.coordinates, request.point_origin))
+  {
+    shown.Notices.push_back({ shown.Where, "the box is not finite and not shown" });
+  }
+  FillFieldData(box->GetFieldData(), rows, request.point_origin);
+}
+
+//------------------------------------------------------------------------------
 void vtkGranularSeriesReader::Internals::FillLines(
   Shown& shown, granular::Tables& frame, const granular::Request& request)
 {
@@ -251,6 +265,7 @@ void vtkGranularSeriesReader::Internals::FillLines(
   FillRows(rows, frame.rows);
   FillFieldData(lines->GetFieldData(), frame.rows, request.point_origin);
   FillFieldData(rows->GetFieldData(), frame.rows, request.point_origin);
+  FillBox(shown, frame.rows, request);
   if (frame.rows.has_lines)
   {
     vtkGranularPrivate::FillLines(lines, rows, frame.rows, request, shown.Where, shown.Notices);
@@ -263,17 +278,10 @@ void vtkGranularSeriesReader::Internals::FillParticles(
 {
   granular::Table& rows = frame.rows;
   auto* particles = vtkPolyData::GetData(shown.Outputs, 0);
-  auto* box =
-    vtkUnstructuredGrid::GetData(shown.Outputs, shown.Outputs->GetNumberOfInformationObjects() - 1);
   vtkGranularPrivate::FillParticles(
     particles, rows, request.single_precision, this->GetVertices(), this->Vertices, this->Pool);
-  if (shown.Piece.Piece == 0 &&
-    !FillBox(box, rows.header.box, rows.coordinates, request.point_origin))
-  {
-    shown.Notices.push_back({ shown.Where, "the box is not finite and not shown" });
-  }
   FillFieldData(particles->GetFieldData(), rows, request.point_origin);
-  FillFieldData(box->GetFieldData(), rows, request.point_origin);
+  FillBox(shown, rows, request);
   if (this->Run.kind().has_bonds)
   {
     auto* lines = vtkPolyData::GetData(shown.Outputs, 1);

@@ -152,6 +152,7 @@ struct vtkGranularSeriesReader::Internals
   std::shared_ptr<granular::BlockPool> Pool; ///< of output memory; null: none, or not made yet
 
 private:
+  void FillBox(Shown& shown, const granular::Table& rows, const granular::Request& request);
   void FillLines(Shown& shown, granular::Tables& frame, const granular::Request& lines);
   void FillParticles(Shown& shown, granular::Tables& frame, const granular::Request& request);
 

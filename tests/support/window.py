@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""ParaView's window, driven by events of its own tests."""
+import os
+import subprocess
+from xml.sax.saxutils import quoteattr
+
+
+class Window:
+    """Events to be played one after the other in a window, in the folder at hand. It has a home of its own: nothing that the user has set
+    counts."""
+
+    def __init__(self, program, *arguments):
+        self.command = [program, "--dr", *arguments]
+        self.events = []
+        self.scripts = 0
+
+    def event(self, widget, command, arguments=""):
+        """Adds an event of a widget of the main window, or a dialog."""
+        self.events.append(f"<pqevent object={quoteattr('pqClientMainWindow/' + widget)} command={quoteattr(command)} "
+                           f"arguments={quoteattr(arguments)}/>")
+
+    def open(self, path):
+        self.event("menubar/menu_File", "activate", "actionFileOpen")
+        self.event("FileOpenDialog", "filesSelected", path)
+
+    def choose(self, menu, name):
+        """Adds the choice of a source or filter in the menu Sources or Filters."""
+        self.event(f"menubar/menu{menu}/pqProxyGroupMenuManager0/{name}", "activate")
+
+    def last_frame(self):
+        self.event("VCRToolbar/actionVCRLastFrame", "activate")
+
+    def apply(self):
+        self.event("propertiesDock/propertiesPanel/Accept", "activate")
+
+    def in_shell(self, text):
+        """Adds a script that the window's Python shell runs."""
+        path = os.path.abspath(f"script_{self.scripts}.py")
+        self.scripts += 1
+        with open(path, "w") as file:
+            file.write(text)
+        self.event("pythonShellDock/pythonShell/consoleWidget", "executeCommand", f"exec(open({path!r}).read())")
+
+    def play(self):
+        """Plays the events to their end, and returns what the program says; kills it after a while."""
+        home = os.path.abspath("home")
+        os.makedirs(home, exist_ok=True)
+        os.chmod(home, 0o700)
+        with open("events.xml", "w") as file:
+            file.write("\n".join(["<?xml version='1.0'?>", "<pqevents>", *self.events, "</pqevents>\n"]))
+        return run(*self.command, "--test-script=" + os.path.abspath("events.xml"), "--exit", HOME=home, XDG_RUNTIME_DIR=home)
+
+
+def run(*command, **environment):
+    """Runs a program to its end, prints what it says and returns that; kills it after a minute."""
+    said = subprocess.run(command, env={**os.environ, **environment}, timeout=100, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    print(said.stdout, flush=True)
+    assert said.returncode == 0, f"exit status {said.returncode} of {command}"
+    return said.stdout
