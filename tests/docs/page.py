@@ -11,8 +11,10 @@ import io
 import os
 import re
 import runpy
+import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 HAS_VTK = importlib.util.find_spec("vtkmodules") is not None
@@ -44,6 +46,12 @@ for line, block in blocks(text, "python"):
     script += "\n" * (line - script.count("\n")) + block  # lines have the numbers of the page
 commands = [block for _, block in blocks(text, "sh") if block.startswith("granular ")]
 assert script or commands, f"{page} has no script"
+missing = [name for name in ("matplotlib", "scipy") if f"from {name}" in script and not importlib.util.find_spec(name)]
+missing += ["voro++"] if '"voro++"' in script and not shutil.which("voro++") else []
+if missing:
+    print(f"skipped: {', '.join(missing)} is not installed")
+    raise SystemExit
+warnings.filterwarnings("ignore", module=".*(matplotlib|pyparsing)")  # others' code
 if not os.path.exists("samples"):
     os.symlink(root / "samples", "samples")
 
