@@ -454,12 +454,12 @@ for _ in range(300):
             assert error.path.endswith("made.txt")
 
 # ---- the page of the guide ----
-with open(os.path.join(ROOT, "docs", "guide", "arrays.md")) as stream:
+with open(os.path.join(ROOT, "docs", "guide", "logs.md")) as stream:
     page = stream.read()
 (script,) = [block for block in re.findall(r"^```py\n(.*?)^```$", page, re.MULTILINE | re.DOTALL) if "read_log" in block]
 os.makedirs("logs", exist_ok=True)
 os.chdir("logs")
 with open("log.liggghts", "wb") as stream:
     stream.write(whole)
-exec(compile(script, "arrays.md", "exec"), {"vg": vg})
+exec(compile(script, "logs.md", "exec"), {"vg": vg})
 print("logs are the numbers of their tables")
