@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonded particles into messages for other ranks and out of them, against memcpy of as many doubles.
+// Bonded particles into messages for other ranks and into records of restart files, and out of them, against memcpy of as many doubles.
 #include "granular_bonds.h"
 
 #include <benchmark/benchmark.h>
@@ -39,29 +39,65 @@ Particles make_chain(std::size_t count, bool bonds)
   return { made, granular_bonds_destroy };
 }
 
+constexpr int record = -1; ///< kind of the records of restart files, beside those of messages
+
+/// Packs all particles and returns the number of doubles; null: only their number.
+std::size_t pack(
+  const granular_bonds* particles, int kind, std::size_t count, double* buffer, std::size_t room)
+{
+  std::size_t doubles = 0;
+  if (kind != record)
+  {
+    granular_bonds_pack(particles, kind, 0, count, nullptr, nullptr, buffer, room, &doubles);
+    return doubles;
+  }
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < count; ++i, doubles += length)
+  {
+    granular_bonds_pack_record(particles, i, nullptr, nullptr, 0,
+      buffer ? buffer + doubles : nullptr, room - doubles, &length);
+  }
+  return doubles;
+}
+
+/// Returns the number of particles that came out.
+std::size_t unpack(granular_bonds* particles, int kind, const std::vector<double>& buffer)
+{
+  std::size_t count = 0;
+  granular_bonds_resize(particles, 0);
+  if (kind != record)
+  {
+    granular_bonds_unpack(particles, kind, 0, nullptr, buffer.data(), buffer.size(), &count);
+    return count;
+  }
+  for (std::size_t at = 0, length = 0; at < buffer.size(); at += length, ++count)
+  {
+    if (granular_bonds_unpack_record(particles, nullptr, 0, buffer.data() + at, buffer.size() - at,
+          &length) != GRANULAR_BONDS_OK)
+    {
+      break;
+    }
+  }
+  return count;
+}
+
 /// Rows one after the other are packed, unpacked into new rows, of which the memory has been used before, or copied.
 void measure(benchmark::State& state, int kind, const std::string& way)
 {
   const auto count = static_cast<std::size_t>(state.range(0));
-  const Particles particles = make_chain(count, kind == GRANULAR_BONDS_EXCHANGE);
-  const Particles others = make_chain(count, kind == GRANULAR_BONDS_EXCHANGE);
-  std::size_t doubles = 0;
-  granular_bonds_pack(particles.get(), kind, 0, count, nullptr, nullptr, nullptr, 0, &doubles);
-  std::vector<double> buffer(doubles);
-  std::vector<double> copy(doubles);
-  const auto pack = [&]
-  {
-    return granular_bonds_pack(particles.get(), kind, 0, count, nullptr, nullptr, buffer.data(),
-             doubles, &doubles) == GRANULAR_BONDS_OK;
-  };
-  const auto unpack = [&]
-  {
-    std::size_t unpacked = 0;
-    granular_bonds_resize(others.get(), 0);
-    granular_bonds_unpack(others.get(), kind, 0, nullptr, buffer.data(), buffer.size(), &unpacked);
-    return unpacked == count;
-  };
-  bool right = pack() && unpack();
+  const bool bonds = kind == GRANULAR_BONDS_EXCHANGE || kind == record;
+  const Particles particles = make_chain(count, bonds);
+  const Particles others = make_chain(count, bonds);
+  std::vector<double> buffer(pack(particles.get(), kind, count, nullptr, 0));
+  std::vector<double> copy(buffer.size());
+  const auto packs = [&]
+  { return pack(particles.get(), kind, count, buffer.data(), buffer.size()) == buffer.size(); };
+  const auto unpacks = [&] { return unpack(others.get(), kind, buffer) == count; };
+  bool right = packs() && unpacks();
+  pack(others.get(), kind, count, copy.data(), copy.size());
+  right = right &&
+    std::memcmp(copy.data(), buffer.data(), buffer.size() * sizeof(double)) ==
+      0; // every bit comes back
   for (auto _ : state)
   {
     if (way == "memcpy")
@@ -72,12 +108,12 @@ void measure(benchmark::State& state, int kind, const std::string& way)
     }
     else
     {
-      right = (way == "pack" ? pack() : unpack()) && right;
+      right = (way == "pack" ? packs() : unpacks()) && right;
     }
   }
   if (!right)
   {
-    state.SkipWithError("particles are lost");
+    state.SkipWithError("particles or bits are lost");
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
@@ -88,7 +124,8 @@ int main(int argc, char** argv)
   benchmark::Initialize(&argc, argv);
   constexpr std::pair<const char*, int> kinds[] = { { "comm", GRANULAR_BONDS_COMM },
     { "comm_vel", GRANULAR_BONDS_COMM_VELOCITY }, { "border", GRANULAR_BONDS_BORDER },
-    { "border_hybrid", GRANULAR_BONDS_BORDER_HYBRID }, { "exchange", GRANULAR_BONDS_EXCHANGE } };
+    { "border_hybrid", GRANULAR_BONDS_BORDER_HYBRID }, { "exchange", GRANULAR_BONDS_EXCHANGE },
+    { "record", record } };
   for (const auto& [name, kind] : kinds)
   {
     for (const char* const way : { "memcpy", "pack", "unpack" })

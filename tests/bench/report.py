@@ -15,8 +15,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 DOCS = HERE.parents[1] / "docs"
-PAGE, PICTURES = DOCS / "speed_and_error.md", DOCS / "speed_and_error"
-STUDIES = ("store", "look", "draw", "choose", "average", "paths", "cores", "ranks", "others", "bonds", "decode")
+PAGES, PICTURES = (DOCS / "speed_and_error.md", *sorted((DOCS / "measurements").glob("*.md"))), DOCS / "speed_and_error"
+STUDIES = ("store", "look", "draw", "choose", "average", "paths", "cores", "ranks", "others", "bonds", "voxels", "decode")
 NEEDS = {"draw": "pvpython", "ranks": "pvbatch"}  # besides the VTK classes
 
 
@@ -50,13 +50,14 @@ def machine():
     return f"{os.cpu_count()} cores of {models[0]}, {memory:.0f} GiB of memory"
 
 
-def write_page(blocks, pictures):
-    """Replaces the lines between <!-- NAME --> and <!-- end of NAME -->, and the pictures of the page."""
-    text = PAGE.read_text(encoding="utf-8")
-    for name, block in blocks.items():
-        mark = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->)", re.S)
-        text = mark.sub(lambda match, block=block: f"{match.group(1)}{block}\n{match.group(2)}", text)
-    PAGE.write_text(text, encoding="utf-8")
+def write_pages(blocks, pictures):
+    """Replaces the lines between <!-- NAME --> and <!-- end of NAME -->, and the pictures of the pages."""
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for name, block in blocks.items():
+            mark = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->)", re.S)
+            text = mark.sub(lambda match, block=block: f"{match.group(1)}{block}\n{match.group(2)}", text)
+        page.write_text(text, encoding="utf-8")
     for picture in pictures:
         shutil.copy(picture, PICTURES)
 
@@ -65,7 +66,7 @@ def main():
     parser = argparse.ArgumentParser(prog="tests/bench/run")
     parser.add_argument("--quick", action="store_true", help="small files, one round")
     parser.add_argument("--large", action="store_true", help="also what takes many minutes")
-    parser.add_argument("--docs", action="store_true", help="also docs/speed_and_error.md and its pictures")
+    parser.add_argument("--docs", action="store_true", help="also docs/speed_and_error.md, docs/measurements and their pictures")
     parser.add_argument("--programs", required=True, type=Path, help="folder of bench_bonds and bench_decode")
     parser.add_argument("--report", required=True, type=Path, help="folder to write to")
     parser.add_argument("studies", nargs="*", metavar="study", help=" ".join(STUDIES))
@@ -105,7 +106,7 @@ def main():
     report = options.report / "report.md"
     report.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
     if options.docs:
-        write_page(blocks, pictures)
+        write_pages(blocks, pictures)
     print(report)
     if stopped:
         sys.exit(130)

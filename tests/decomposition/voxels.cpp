@@ -2,6 +2,7 @@
 #include "granular/formats/decomposition/voxels.h"
 
 #include "../grid/made_subdomains.h"
+#include "../support/hard_case.h"
 #include "../support/stop.h"
 
 #include <gtest/gtest.h>
@@ -214,6 +215,11 @@ TEST(BoundsOfCell, symmetries)
   const Vector3 lo = { 0, 10, 100 };
   const Vector3 hi = { 1, 12, 103 };
   std::map<CornerOrder, int> seen;
+  HardCase wrong("voxels",
+    "cells in all 96 orders of corners, also mirrored as LIGGGHTS-INL writes them: taken for "
+    "another "
+    "box",
+    "orders", 0);
   for (const auto& order : { voxel_order, hexahedron_order })
   {
     std::array<std::size_t, 3> axes = { 0, 1, 2 };
@@ -240,8 +246,11 @@ TEST(BoundsOfCell, symmetries)
         EXPECT_EQ(is == CornerOrder::Voxel, same && voxel);
         EXPECT_EQ(is == CornerOrder::Hexahedron, same && !voxel);
         EXPECT_EQ(is == CornerOrder::Reflected, exchanged && voxel);
-        EXPECT_EQ(found.lo, is == CornerOrder::None ? Vector3({ 7, 7, 7 }) : corners.front());
-        EXPECT_EQ(found.hi, is == CornerOrder::None ? Vector3({ 8, 8, 8 }) : opposite(corners));
+        const bool none = is == CornerOrder::None;
+        wrong.add(found.lo == (none ? Vector3({ 7, 7, 7 }) : corners.front()) &&
+              found.hi == (none ? Vector3({ 8, 8, 8 }) : opposite(corners))
+            ? 0
+            : 1);
       }
     } while (std::next_permutation(axes.begin(), axes.end()));
   }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each array that a class computes has a row in the table "Promises" of docs/speed_and_error.md, and each row such an array.
+"""Each array that a class computes has a row in the table of docs/measurements/promises.md, and each row such an array.
 
 Computed is what an output has and neither its file nor its inputs have under that name: values of files are told by the
 columns that the file names."""
@@ -135,8 +135,8 @@ EVERYONE = "all readers and sources"
 
 def promised():
     """{(class, array)} of the table; a class None stands for all, an array with a star for its ending."""
-    with open(os.path.join(ROOT, "docs", "speed_and_error.md"), encoding="utf-8") as stream:
-        table = stream.read().split("## Promises")[1]
+    with open(os.path.join(ROOT, "docs", "measurements", "promises.md"), encoding="utf-8") as stream:
+        table = stream.read()
     for line in re.findall(r"^\| (`.*) \| (.*?) \| (.+?) \|$", table, re.M):
         for array in re.findall(r"`([^`]+)`", line[0]):
             for name in [None] if line[1] == EVERYONE else line[1].split(", "):
@@ -156,10 +156,10 @@ def main():
             for array in names_of(data) - columns - inputs - WORDS:
                 found = {(who, what) for who, what in promises if who in (None, name) and is_of(array, what)}
                 if not found:
-                    sys.exit(f"docs/speed_and_error.md: no promise about the array {array} of {name}")
+                    sys.exit(f"docs/measurements/promises.md: no promise about the array {array} of {name}")
                 kept |= found
     if promises != kept:
-        sys.exit("docs/speed_and_error.md: promises about arrays that were not there: "
+        sys.exit("docs/measurements/promises.md: promises about arrays that were not there: "
                  f"{sorted(promises - kept, key=str)}")
 
 

@@ -183,8 +183,8 @@ double worst(const ReferenceBox& box, Coordinates coordinates, std::int32_t most
 TEST(WritePositions, from_all_forms)
 {
   HardCase hard("positions, written",
-    "from absolute, unwrapped, scaled and shifted points, up to 2^20 crossings: error by ulp + "
-    "2^-100 of the terms",
+    "from absolute, unwrapped, scaled and shifted points, up to 2^20 crossings: error over "
+    "its bound",
     "bounds", 1);
   for (const ReferenceBox& box : boxes())
   {

@@ -404,8 +404,7 @@ void compare(const Cell& cell, Form form, Coordinates wanted, Cells& cells, Wors
 TEST(Positions, EveryConversionIsWithinItsBound)
 {
   HardCase hard("positions, read",
-    "all forms, boxes flat, far, tilted and general, images and PointOrigin: error by ulp + 2^-100 "
-    "of the terms",
+    "all forms, boxes flat, far, tilted and general, images and PointOrigin: error over its bound",
     "bounds", 1);
   Cells cells;
   Worst worst;

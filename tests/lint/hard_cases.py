@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of hard cases in docs/speed_and_error.md: each row is a HardCase of a test, and each HardCase a row.
+"""The table of hard cases in docs/measurements/hard_cases.md: each row is a HardCase of a test, and each HardCase a row.
 
     hard_cases.py FOLDER          compares the table with the sources: subject, quantity, unit, bound and test
     hard_cases.py FOLDER write    runs those tests (a build must be there) and makes the table anew
@@ -15,12 +15,12 @@ import tempfile
 
 import tree
 
-PAGE = "docs/speed_and_error.md"
+PAGE = "docs/measurements/hard_cases.md"
 BEGIN, END = "<!-- hard cases, made by tests/lint/hard_cases.py -->\n", "<!-- end of hard cases -->\n"
 HEAD = "| subject | quantity | unit | promised at most | worst found | trials | test |"
 # Without a case of each of these the table is not complete.
 SUBJECTS = ("numbers, read", "numbers, written", "ids", "times", "positions, read", "positions, written", "radii", "volumes",
-            "sums", "stresses", "averages in time", "lengths", "strains", "minimum image", "counts on faces", "packings")
+            "sums", "stresses", "averages in time", "lengths", "strains", "minimum image", "counts on faces", "packings", "messages", "voxels")
 
 CASE = re.compile(r'HardCase\s+\w+\(\s*((?:"[^"\n]*"[\s,]*){3,})([^;]*?)\);', re.S)
 TEST = re.compile(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", re.M)

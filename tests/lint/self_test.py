@@ -119,7 +119,7 @@ class HardCases(unittest.TestCase):
 
     def check(self, row, source=SOURCE):
         page = f"{hard_cases.BEGIN}{hard_cases.HEAD}\n|---|\n{row}{hard_cases.END}"
-        files = {"docs__speed_and_error_dot_md": page, "tests__a_dot_cpp": source}
+        files = {"docs__measurements__hard_cases_dot_md": page, "tests__a_dot_cpp": source}
         return [text for _, _, text in complaints(hard_cases.check, files) if "no hard case of" not in text]
 
     def test_rows_are_what_tests_hold(self):
@@ -132,7 +132,7 @@ class HardCases(unittest.TestCase):
 
     def test_subjects_are_complete(self):
         page = hard_cases.BEGIN + hard_cases.HEAD + "\n|---|\n" + hard_cases.END
-        told = complaints(hard_cases.check, {"docs__speed_and_error_dot_md": page})
+        told = complaints(hard_cases.check, {"docs__measurements__hard_cases_dot_md": page})
         self.assertEqual(len(told), len(hard_cases.SUBJECTS))
 
 

@@ -164,8 +164,7 @@ std::vector<Particle> part_of(const std::vector<Particle>& all, int step, int ra
 TEST(CompareParticles, DisplacementsAreRoundedOnce)
 {
   HardCase hard("displacements",
-    "tilted boxes that change, up to 2^20 images: error by ulp + 2^-100 of the terms", "bounds",
-    0.51);
+    "tilted boxes that change, up to 2^20 images: error over its bound", "bounds", 0.51);
   std::mt19937_64 random(21);
   for (int trial = 0; trial < 200; ++trial)
   {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <string>
 
-/// A row of the table of hard cases in docs/speed_and_error.md: what is promised for a quantity where it is difficult, and the
+/// A row of the table of hard cases in docs/measurements/hard_cases.md: what is promised for a quantity where it is difficult, and the
 /// worst of many trials. The test fails where the worst is above the bound, or where nothing was tried.
 ///
 /// tests/lint/hard_cases.py finds each of these in the sources: subject, quantity and unit are literals on one or several

@@ -134,6 +134,22 @@ def kernels_study(study, reader, particles):
     study.block("kernels", "The same particles. Noise is the root mean square of the volume fraction's deviations, over its mean. The grid is as "
                 "fine as the width; Overlap in cells as large as the sphere of Heaviside. One thread, processor time.",
                 table(["width / radius", *(f"{name} {what}" for name in (*KERNELS, "Overlap") for what in ("noise", "ns/particle"))], rows))
+    study.picture("kernels", lambda pyplot: plot_kernels(pyplot, rows))
+
+
+def plot_kernels(pyplot, rows):
+    figure, axes = pyplot.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
+    widths, *columns = numpy.array(rows, float).T
+    for number, name in enumerate((*KERNELS, "Overlap")):
+        for panel in (0, 1):
+            axes[panel].plot(widths, columns[2 * number + panel], "o-" if name in KERNELS else "s--", label=name)
+    axes[0].set_ylabel("noise of the volume fraction, rms / mean")
+    axes[1].set_ylabel("time [ns/particle]")
+    for each in axes:
+        each.set(xscale="log", yscale="log", xlabel="width of the kernel / radius")
+        each.grid(color="0.93")
+        each.legend(fontsize=8)
+    return figure
 
 
 def errors_of(average, cells):

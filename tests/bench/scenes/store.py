@@ -34,10 +34,10 @@ PACKERS = {"": "", ", gzip": ".gz", ", zstd": ".zst"}
 
 # need, way to store, place of the box, settings besides, error that matters, what goes wrong with the default
 DECIDE = (
-    ("a picture, box near the origin", DEFAULT, "0", "the default of most runs; `PointPrecision=\"Single\"` saves memory", "position",
-     "nothing"),
+    ("a picture, box near the origin", DEFAULT, "0", "`PointPrecision=\"Single\"` saves memory", "position",
+     "the same"),
     ("a picture, box far away", "custom %.9g", "1e3",
-     "`dump_modify ID format \"%d %d %.9g ...\"`, a format for each column; `PointPrecision=\"Single\"` only with `PointOrigin`",
+     "`dump_modify ID format \"%d %d %.9g ...\"`; `PointPrecision=\"Single\"` only with `PointOrigin`",
      "position", "particles jump by two radii"),
     ("the same by LAMMPS", "scaled %g", "1e3", "`xs ys zs`: LAMMPS prints all digits of the box, LIGGGHTS six", "position",
      "particles jump by two radii"),
@@ -45,7 +45,7 @@ DECIDE = (
      "text takes longer to read"),
     ("velocities to 1e-4, box anywhere", "custom %.9g", "1e3", "`%g` for `vx vy vz` is enough", "velocity",
      "velocities are right, positions are not"),
-    ("averages in cells", "custom %.9g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii: see [Cells](#cells)", "position",
+    ("averages in cells", "custom %.9g", "1e3", "`Weights=\"Overlap\"` for cells below 20 radii: see [averages](measurements/averages.md)", "position",
      "particles are in wrong cells"),
     ("strain to 1e-4, box near the origin", "custom %.9g", "0", "", "strain", "the error is as large as the strain"),
     ("strain to 1e-4, box far away", "custom %.12g", "1e3", "", "strain", "nothing is right"),
@@ -170,10 +170,41 @@ def measure(study, place):
 def decide(errors, costs):
     def told(way, place, metric):
         return scientific(errors[place][way][metric]) + UNITS[metric]
-    return table(["need", "store as", "settings besides", "B/particle", "write ns/particle", "read ns/particle", "largest error",
-                  f"with the default, `{DEFAULT}`", "what goes wrong with the default"],
-                 [[need, f"`{way}`", besides, *(f"{cost:.0f}" for cost in costs[way]), told(way, place, metric),
-                   told(DEFAULT, place, metric), wrong] for need, way, place, besides, metric, wrong in DECIDE])
+    return table(["need", "store as", "setting", "B/particle", "largest error", f"else, with `{DEFAULT}`"],
+                 [[need, f"`{way}`", besides, f"{costs[way][0]:.0f}", told(way, place, metric),
+                   f"{told(DEFAULT, place, metric)}: {wrong}"] for need, way, place, besides, metric, wrong in DECIDE])
+
+
+def far_errors():
+    """name: the largest error of positions [smallest radii] at distances [smallest radii] from the origin."""
+    near, distances, found = Packing(layers=1).points[::20], 10.0 ** numpy.arange(0, 11), {}
+    for distance in distances * SMALLEST:
+        lo = distance * 1.01234567891234  # bounds that are not round
+        points = lo + near
+        ways = {f"%.{digits}g".replace("%.6g", "%g"): [[float(f"%.{digits}g" % value) for value in row] for row in points.tolist()]
+                for digits in (6, 9, 12)}
+        ways["single precision"] = points.astype(numpy.float32)
+        ways["single precision, PointOrigin"] = (points - lo).astype(numpy.float32).astype(float) + lo
+        for name, told in ways.items():
+            found.setdefault(name, []).append(max(largest(numpy.asarray(told, float) - points) / SMALLEST, EXACT))
+        scaled = numpy.array([[float("%g" % value) for value in row] for row in (points - lo).tolist()])
+        bounds = [float("%g" % bound) for bound in (lo, lo + 1)]
+        found.setdefault("xs of %g, box of LAMMPS", []).append(largest(lo + scaled - points) / SMALLEST)
+        found.setdefault("xs of %g, box of LIGGGHTS", []).append(largest(bounds[0] + scaled * (bounds[1] - bounds[0]) - points) / SMALLEST)
+    return distances, found
+
+
+def plot_far(pyplot, distances, found):
+    figure, axes = pyplot.subplots(figsize=(7, 4.2), layout="constrained")
+    for name, errors in found.items():
+        axes.plot(distances, errors, "--" if name.startswith("xs") else ":" if name.startswith("single") else "-", label=name)
+    axes.axhline(1e-2, color="0.6", linewidth=0.8, linestyle=":")
+    axes.text(1.2, 1.4e-2, "1 % of a radius", fontsize=8, color="0.4")
+    axes.set(xscale="log", yscale="log", xlabel="distance of the box from the origin [radii]", ylabel="largest error of positions [radii]",
+             ylim=(1e-12, 1e4), xlim=(1, 1e10))
+    axes.grid(color="0.93")
+    axes.legend(fontsize=8, loc="lower right")
+    return figure
 
 
 def front(points):
@@ -229,6 +260,7 @@ def study_of(study):
                 "again. Errors are the largest ones.",
                 table(["way", "B/particle", "write ns/particle", "read ns/particle", *(f"position error at {place} [radii]" for place in PLACES),
                        "strain error", "velocity error [rms velocity]"], rows))
+    study.picture("far", lambda pyplot: plot_far(pyplot, *far_errors()))
     study.picture("store", lambda pyplot: plot(pyplot, errors["1e3"], costs))
 
 
