@@ -27,7 +27,6 @@ class Algorithm(VTKPythonAlgorithmBase):
         super().__init__(nInputPorts=inputs, nOutputPorts=len(self.ports), outputType=self.ports[0])
         self.values = dict(self.defaults)
         self._message = ""
-        self._failed: Any = None  # the error that was told last, and when
         self._told = Told(self)
 
     def GetErrorMessage(self) -> str:
@@ -53,15 +52,14 @@ class Algorithm(VTKPythonAlgorithmBase):
         except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
             self._message = str(error) or type(error).__name__
         else:
-            self._message, self._failed = "", None
+            self._message = ""
             self._told.tell()
             return 1
         for port in range(outputs.GetNumberOfInformationObjects()):
             data = vtkDataObject.GetData(outputs, port)
             if data:
                 data.Initialize()
-        if self._message and self._failed != (self._message, self.GetMTime()):
-            self._failed = self._message, self.GetMTime()
+        if self._message:
             self._told.error(self._message)
         return 0
 

@@ -127,6 +127,8 @@ def define(classes: dict[str, type]) -> Any:
                 continue
             for element in [element for element in proxy if element.get("name") in _MISSING]:
                 proxy.remove(element)
+            if proxy.tag == "PWriterProxy":
+                proxy.set("supports_parallel", "1")
             proxy.tag = _TAGS.get(proxy.tag, proxy.tag)
             if own is not None:
                 proxy.set("class", f"{MODULE}.{own.__name__}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from typing import Any
+from typing import Any, Callable
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -76,6 +76,22 @@ def share(mine: Any) -> Any:
 def everyone(mine: Any) -> list[Any]:
     """Returns the objects of all ranks, by rank, on all ranks."""
     return share(gather(mine))
+
+
+def together(work: Callable[[], Any]) -> Any:
+    """Does something on each rank, and returns what it made. Where it fails on one, all raise the error of the lowest such rank."""
+    made, failure = None, None
+    try:
+        made = work()
+    except Exception as error:  # noqa: BLE001 (raised on all ranks)
+        failure = error
+    failures = everyone(failure)
+    for cancelled in (False, True):
+        for rank, each in enumerate(failures):
+            if each is not None and isinstance(each, c.Cancelled) == cancelled:
+                same = cancelled or all(str(other) == str(each) for other in failures)
+                raise each if same else c.Error(f"{each} (on rank {rank} of {len(failures)})")
+    return made
 
 
 def _bytes_to_vtk(data: bytes) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any
 
 import numpy
@@ -18,7 +19,7 @@ from .._run import Run, kind_of
 from ._algorithm import Algorithm, asked_output, piece_of
 from ._arrays import Table, cells, fill_lines, fill_particles, numbers, texts
 from ._choice import ArrayChoice
-from ._ranks import ranks_of_paraview
+from ._ranks import is_first, ranks_of_paraview, together
 
 #: What the compiled readers call other values than the library: Double is 1 there.
 _CHOICES = {"PointPrecision": ("single", "double")}
@@ -95,6 +96,7 @@ class Reader(Algorithm):
             self._run = None
             if self._opened and self._opened[0] != self._paths:
                 self._told.forget()
+            together(lambda: _expect_files(self._paths) if is_first() else None)
             self._run = Run(self._paths, options, self._progress, ranks_of_paraview(), self._told.warn)
             self._opened = list(self._paths), options
         elif self._stale:
@@ -120,12 +122,13 @@ class Reader(Algorithm):
                 info = outputs.GetInformationObject(port)
                 info.Set(Pipeline.TIME_STEPS(), times, len(times))
                 info.Set(Pipeline.TIME_RANGE(), [times[0], times[-1]], 2)
-                info.Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)
                 self.inform(self._run, info)
 
         for port in range(len(self.ports)):
-            outputs.GetInformationObject(port).Remove(Pipeline.TIME_STEPS())
-            outputs.GetInformationObject(port).Remove(Pipeline.TIME_RANGE())
+            info = outputs.GetInformationObject(port)
+            info.Remove(Pipeline.TIME_STEPS())
+            info.Remove(Pipeline.TIME_RANGE())
+            info.Set(self.CAN_HANDLE_PIECE_REQUEST(), 1)  # also after an error, or the first rank alone is asked for data, and waits
         return self._guarded(work, outputs)
 
     def inform(self, run: Run | None, info: Any) -> None:
@@ -167,6 +170,15 @@ class Reader(Algorithm):
             self._told.warn(f"{c.shown(run._place_of(number)[1][1])}: the box is not finite and not shown")
         table.add_header(box.GetFieldData())
         table.add_columns(box.GetFieldData())
+
+
+def _expect_files(paths: list[str]) -> None:
+    """Raises the error of a file that is not there: the library takes its name for a pattern."""
+    for path in paths:
+        try:
+            os.stat(path)
+        except OSError as error:
+            raise c.Error(f"{c.shown(path)}: cannot open: {error.strerror}") from None
 
 
 def _columns(run: Run, number: int, table: int) -> list[tuple[str, bool]]:

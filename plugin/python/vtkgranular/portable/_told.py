@@ -30,6 +30,7 @@ class Told:
         self._watched: Any = None
         self._topics: set[str] = set()  # of the last request of a filter
         self._topics_time = 0
+        self._failed: Any = None  # the last error, and the time of the algorithm then
 
     def watch(self) -> None:
         """Watches the executive of the algorithm, of which ParaView gives it another one than it has at first."""
@@ -50,7 +51,8 @@ class Told:
             self._kept.append(text)
 
     def tell(self) -> None:
-        """Tells what was taken, as one warning."""
+        """Tells what was taken, as one warning, after something has gone well."""
+        self._failed = None
         kept, self._kept = self._kept, []
         if kept:
             more = [f"and {len(kept) - _MOST} more"] if len(kept) > _MOST else []
@@ -68,8 +70,11 @@ class Told:
             self._topics.add(topic)
 
     def error(self, text: str) -> None:
-        """Tells an error."""
-        self._say("ErrorEvent", text)
+        """Tells an error once, as pipelines repeat requests."""
+        failed = text, self._algorithm.GetMTime()
+        if failed != self._failed:
+            self._failed = failed
+            self._say("ErrorEvent", text)
 
     def _say(self, event: str, text: str) -> None:
         if self._algorithm.HasObserver(event):

@@ -14,7 +14,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from .. import _library as c
 from ._contents import DUPLICATE, Content, Rows, box_of
-from ._ranks import gather, is_first, share
+from ._ranks import gather, is_first, share, together
 from ._readers import Reader
 from ._told import Told
 
@@ -136,47 +136,34 @@ class Writer(VTKPythonAlgorithmBase):
         library, pointer = c.library(), c.c_void_p()
         frames, number = self._frames(), 0
         calls = c.Calls(self._progress, self._told.warn)
+
+        def take() -> Any:
+            data, time, step = next(frames, (None, None, None))
+            return None if data is None else (self.take(data), time, step)
+
+        def write() -> None:
+            with calls:
+                if not pointer:
+                    given = self.format()
+                    given.progress, given.notice = calls.progress, calls.notice
+                    library.granular_create(c.name_bytes(self._path), c.byref(given), c.byref(pointer))
+                    for run in self._runs():
+                        library.granular_add_input(pointer, run._open())
+                self._write_frame(pointer, [rows for rows, *_ in parts], number, *parts[0][1:])
+
+        def finish() -> None:
+            done = c.c_void_p(pointer.value)
+            pointer.value = None  # also where it fails
+            library.granular_finish(done)
+
         try:
             while True:
-                own: Any = None
-                time = step = None
-                try:
-                    data, time, step = next(frames)
-                    own = self.take(data)
-                except StopIteration:
-                    pass
-                except Exception as error:  # noqa: BLE001 (raised on all ranks)
-                    own = c.Error(str(error))
-                parts = gather(own)
-                if share(all(part is None for part in parts)):  # as the first rank has it
+                parts = gather(together(take))
+                if share(not all(parts)):  # as the first rank has it
                     break
-                failure: Any = next((part for part in parts if isinstance(part, Exception)), None)
-                if is_first() and failure is None:
-                    try:
-                        with calls:
-                            if not pointer:
-                                given = self.format()
-                                given.progress, given.notice = calls.progress, calls.notice
-                                library.granular_create(c.name_bytes(self._path), c.byref(given), c.byref(pointer))
-                                for run in self._runs():
-                                    library.granular_add_input(pointer, run._open())
-                            self._write_frame(pointer, parts, number, time, step)
-                    except Exception as error:  # noqa: BLE001 (raised on all ranks)
-                        failure = error
-                failure = share(failure)
-                if failure is not None:
-                    raise failure
+                together(lambda: write() if is_first() else None)
                 number += 1
-            failure = None
-            if is_first():
-                try:
-                    done, pointer = pointer, c.c_void_p()
-                    library.granular_finish(done)
-                except Exception as error:  # noqa: BLE001 (raised on all ranks)
-                    failure = error
-            failure = share(failure)
-            if failure is not None:
-                raise failure
+            together(lambda: finish() if is_first() else None)
         finally:
             frames.close()
             self.SetAbortExecute(0)  # holds for one file
