@@ -114,6 +114,8 @@ CASES = (
     (reader("Euler", "word_1.vtk", Output="ImageData"), "word_1.vtk:[0-9]+: ", CELLS, (112,)),
     (reader("Euler", "no_grid_1.vtk", Output="ImageData"), "no_grid_1.vtk", {"Output": "Points"}, (8,)),
     (reader("Euler", "no_grid_1.vtk", Output="ImageData"), "no_grid_1.vtk", next_file("euler_1000.vtk"), (112,)),
+)
+CASES += () if "GranularDecomposition" not in globals() else (
     (lambda: GranularDecompositionSource(ProcessorGrid=[2, 2, 2], NumberOfProcesses=9), "got 9", {"NumberOfProcesses": 8}, (8,)),
     (filter_of("Decomposition", "grains_2000.dump", Mode="ProcessArray"), "'proc'", SPLIT, (2,)),
     (filter_of("Decomposition", "grains_2000.dump", Mode="Subdomains"), "second input", SPLIT, (2,)),

@@ -9,6 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 from .. import _library as c
+from ._ranks import no_garbage_collected
 from ._told import Told
 
 
@@ -44,12 +45,15 @@ class Algorithm(VTKPythonAlgorithmBase):
         """Does a part of an update. An error empties the outputs and is told once, though pipelines repeat requests."""
         self._told.watch()
         try:
-            work()
+            with no_garbage_collected():
+                work()
         except c.Cancelled:
             self._message = ""
             self.SetAbortExecute(0)
             self.Modified()
         except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
+            if not self._message:
+                self.Modified()  # or VTK takes what is left of an image for the last one
             self._message = str(error) or type(error).__name__
         else:
             self._message = ""

@@ -27,12 +27,12 @@ class Rows:
             "Columns", "ColumnDigits", "Dialect", "label", "RowLabel", "units", "timestep", "time", "Coordinates", "PointOrigin", "BoxOrigin",
             "BoxVectors", "BoxBounds", "Boundary")}
 
-    def see(self, attributes: Any, count: int) -> None:
-        """Takes all arrays of attributes, with a value for each of so many rows, to be written."""
+    def see(self, attributes: Any, count: int, names: tuple[str, ...] = ()) -> None:
+        """Takes all arrays of attributes, or those of some names, with a value for each of so many rows, to be written."""
         for i in range(attributes.GetNumberOfArrays()):
             array = attributes.GetAbstractArray(i)
             name = array.GetName()
-            if name == vtkDataSetAttributes.GhostArrayName():
+            if name == vtkDataSetAttributes.GhostArrayName() or (names and name not in names):
                 continue
             if name in ("points", "ends"):
                 raise c.Error(f"column '{name}': expected another name, as the places of rows have it")
@@ -57,6 +57,15 @@ class Rows:
         """Leaves out the rows that another rank has, by an array of ghosts, if there is one."""
         if ghosts:
             self.keep((vtk_to_numpy(ghosts) & DUPLICATE) == 0)
+
+    def add_points(self, data: Any) -> None:
+        """Takes the points of a data set at their true places."""
+        if self.facts["Coordinates"] is not None and "Scaled" in self.facts["Coordinates"]:
+            raise c.Error("expected absolute coordinates, got scaled ones")
+        origin = self.facts["PointOrigin"]
+        self.facts["PointOrigin"] = None
+        points = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else numpy.empty((0, 3))
+        self.arrays["points"] = points + (0 if origin is None else origin.reshape(3))
 
     def __len__(self) -> int:
         return len(next(iter(self.arrays.values()), ()))

@@ -2,8 +2,13 @@
 """The ranks of ParaView for the C library."""
 from __future__ import annotations
 
+import contextlib
+import functools
+import gc
+import os
 import pickle
-from typing import Any, Callable
+import socket
+from typing import Any, Callable, Iterator
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -39,6 +44,19 @@ def ranks_of_paraview() -> _Controller | None:
     """Returns the ranks of the global controller, or None for a single one."""
     controller = vtkMultiProcessController.GetGlobalController()
     return _Controller(controller) if controller and controller.GetNumberOfProcesses() > 1 else None
+
+
+@contextlib.contextmanager
+def no_garbage_collected() -> Iterator[None]:
+    """Keeps Python's garbage collector away while ranks work together: on the first one it may delete proxies of ParaView, which waits then
+    for ranks that wait for this one."""
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collects:
+            gc.enable()
 
 
 def is_first() -> bool:
@@ -92,6 +110,15 @@ def together(work: Callable[[], Any]) -> Any:
                 same = cancelled or all(str(other) == str(each) for other in failures)
                 raise each if same else c.Error(f"{each} (on rank {rank} of {len(failures)})")
     return made
+
+
+@functools.lru_cache(maxsize=None)
+def threads_of_rank() -> int:
+    """Returns this rank's share of the cores of its machine; 0, which the library takes for all that it may use, if it is the only rank."""
+    machines = share(gather(socket.gethostname()))
+    ranks = machines.count(socket.gethostname())
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return max(1, min((os.cpu_count() or 1) // ranks, usable)) if ranks > 1 else 0
 
 
 def _bytes_to_vtk(data: bytes) -> Any:

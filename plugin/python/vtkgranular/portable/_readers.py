@@ -19,7 +19,7 @@ from .._run import Run, kind_of
 from ._algorithm import Algorithm, asked_output, piece_of
 from ._arrays import Table, cells, fill_lines, fill_particles, numbers, texts
 from ._choice import ArrayChoice
-from ._ranks import is_first, ranks_of_paraview, together
+from ._ranks import is_first, ranks_of_paraview, threads_of_rank, together
 
 #: What the compiled readers call other values than the library: Double is 1 there.
 _CHOICES = {"PointPrecision": ("single", "double")}
@@ -85,6 +85,7 @@ class Reader(Algorithm):
             elif option.type == "region":
                 value = [pair if pair[0] <= pair[1] else None for pair in (value[:2], value[2:4], value[4:])]
             given[option.name] = value
+        given["threads"] = given.get("threads") or threads_of_rank()
         return given
 
     def _open(self) -> Run:

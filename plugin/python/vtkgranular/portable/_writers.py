@@ -2,21 +2,37 @@
 """The writers: data of the pipeline as files, by the C library."""
 from __future__ import annotations
 
+import os
 from typing import Any, Iterator
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkInformationVector
-from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkDataObject
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_VOXEL, vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from .. import _library as c
 from ._contents import DUPLICATE, Content, Rows, box_of
-from ._ranks import gather, is_first, share, together
+from ._ranks import gather, is_first, no_garbage_collected, share, together
 from ._readers import Reader
 from ._told import Told
+
+
+def _is_whole(number: Any, most: int = 2**53) -> bool:
+    return number is not None and float(number).is_integer() and abs(number) < most
+
+
+def _shown_time(algorithm: Any, port: int, otherwise: float) -> float:
+    """Returns the time that was asked for: a filter that is new, as ParaView puts some before writers, has not been asked yet."""
+    while algorithm:
+        info = algorithm.GetOutputInformation(port)
+        if info.Has(Pipeline.UPDATE_TIME_STEP()):
+            return float(info.Get(Pipeline.UPDATE_TIME_STEP()))
+        connection = algorithm.GetInputConnection(0, 0) if algorithm.GetNumberOfInputPorts() else None
+        algorithm, port = (connection.GetProducer(), connection.GetIndex()) if connection else (None, 0)
+    return otherwise
 
 
 class Writer(VTKPythonAlgorithmBase):
@@ -47,7 +63,8 @@ class Writer(VTKPythonAlgorithmBase):
         self._written, self._message = 0, ""
         self._told.forget()
         try:
-            self._write()
+            with no_garbage_collected():
+                self._write()
             self._written = 1
         except c.Cancelled:
             pass
@@ -68,13 +85,15 @@ class Writer(VTKPythonAlgorithmBase):
         info = source.GetOutputInformation(port)
         all_times = list(info.Get(Pipeline.TIME_STEPS()) or ()) if info.Has(Pipeline.TIME_STEPS()) else []
         times = all_times if self.values["WriteTimeSteps"] else []
-        shown = info.Get(Pipeline.UPDATE_TIME_STEP()) if info.Has(Pipeline.UPDATE_TIME_STEP()) else None
+        if share(times) != times:
+            raise c.Error("expected the time steps of the first process, got others")
+        shown = _shown_time(source, port, times[0]) if times else None
         try:
             yield from self._updates(source, port, info, times)
         finally:
-            if times and shown is not None:
+            if shown is not None:
                 info.Set(Pipeline.UPDATE_TIME_STEP(), shown)
-                source.Update(port)
+                source.GetExecutive().PropagateUpdateExtent(port)
 
     def _updates(self, source: Any, port: int, info: Any, times: list[float]) -> Iterator[tuple[Any, float | None, float | None]]:
         """Updates the input to each time, or once."""
@@ -93,7 +112,7 @@ class Writer(VTKPythonAlgorithmBase):
                 raise c.Error(f"{c.shown(self._path)}: the input could not be made, and nothing is written: see the messages before")
             there = data.GetInformation()
             now = there.Get(vtkDataObject.DATA_TIME_STEP()) if there.Has(vtkDataObject.DATA_TIME_STEP()) else None
-            whole = all(each == int(each) for each in times) if times else now is not None and now == int(now)
+            whole = all(map(_is_whole, times or [now]))
             yield data, now, (time if times else now) if whole else None
 
     def _runs(self) -> list[Any]:
@@ -130,10 +149,10 @@ class Writer(VTKPythonAlgorithmBase):
     def _write(self) -> None:
         if not self._path:
             raise c.Error("no file to write: set FileName first")
-        controller = vtkMultiProcessController.GetGlobalController()
-        if "%" in self._path and (self.style or (controller and controller.GetNumberOfProcesses() > 1)):
+        if "%" in os.path.basename(self._path) and self.style in ("euler", "decomposition"):
             raise c.Error(f"{c.shown(self._path)}: expected a name without '%': one file holds the rows of all ranks")
-        library, pointer = c.library(), c.c_void_p()
+        library = c.library()
+        pointers: list[Any] = []  # to the files that are being written, by the first rank
         frames, number = self._frames(), 0
         calls = c.Calls(self._progress, self._told.warn)
 
@@ -143,18 +162,18 @@ class Writer(VTKPythonAlgorithmBase):
 
         def write() -> None:
             with calls:
-                if not pointer:
-                    given = self.format()
+                for path in [] if pointers else self._paths(len(parts)):
+                    given, pointer = self.format(), c.c_void_p()
                     given.progress, given.notice = calls.progress, calls.notice
-                    library.granular_create(c.name_bytes(self._path), c.byref(given), c.byref(pointer))
+                    library.granular_create(c.name_bytes(path), c.byref(given), c.byref(pointer))
+                    pointers.append(pointer)
                     for run in self._runs():
                         library.granular_add_input(pointer, run._open())
-                self._write_frame(pointer, [rows for rows, *_ in parts], number, *parts[0][1:])
+                self._write_frame(pointers, [rows for rows, *_ in parts], number, *parts[0][1:])
 
         def finish() -> None:
-            done = c.c_void_p(pointer.value)
-            pointer.value = None  # also where it fails
-            library.granular_finish(done)
+            while pointers:
+                library.granular_finish(pointers.pop(0))
 
         try:
             while True:
@@ -167,34 +186,56 @@ class Writer(VTKPythonAlgorithmBase):
         finally:
             frames.close()
             self.SetAbortExecute(0)  # holds for one file
-            if pointer:
+            for pointer in pointers:
                 library.granular_abandon(pointer)
+
+    def _paths(self, ranks: int) -> list[str]:
+        """Returns the names of the files: one for each rank where the name has a place for its number."""
+        folder, name = os.path.split(self._path)
+        return [os.path.join(folder, name.replace("%", str(rank), 1)) for rank in range(ranks)] if "%" in name else [self._path]
 
     def _progress(self, fraction: float) -> bool:
         self.UpdateProgress(fraction)
         return not self.GetAbortExecute()
 
-    def _write_frame(self, pointer: Any, parts: list[Rows], number: int, time: float | None, step: float | None) -> None:
+    def _write_frame(self, pointers: list[Any], parts: list[Rows], number: int, time: float | None, step: float | None) -> None:
         """Writes the rows of all ranks, with the facts of the first one that has any."""
         filled = [part for part in parts if len(part)] or parts[:1]
         known = filled[0]
-        if any(list(part.arrays) != list(known.arrays) for part in filled):
-            raise c.Error(f"{c.shown(self._path)}: expected the same arrays on all ranks, got others on some")
+        for rank, part in enumerate(parts):
+            other = sorted(part.arrays.keys() ^ known.arrays.keys()) if len(part) else []
+            if other:
+                raise c.Error(f"{c.shown(self._path)}: column '{other[0]}': expected the same arrays on all ranks, got others (on rank {rank} "
+                              f"of {len(parts)})")
         for text in (text for part in filled for text in part.told):
             self._told.warn(text)
-        arrays = {name: values if len(filled) == 1 else numpy.concatenate([part.arrays[name] for part in filled])
-                  for name, values in known.arrays.items()}
+        # a file knows nothing of the others: neither where their rows are nor how many
+        if len(pointers) > 1 and not self.style and (self.values["SortById"] or "id" not in known.arrays or self.box(known.facts) is None):
+            raise c.Error(f"{c.shown(self._path)}: expected points with an array 'id' and a box, and SortById off, for a file of each rank")
         facts = known.facts
-        content = Content(arrays, facts)
+        for pointer, group in zip(pointers, [[part] for part in parts] if len(pointers) > 1 else [filled]):
+            arrays = self.arrange({name: values if group == [known] else
+                                   numpy.concatenate([part.arrays.get(name, values[:0]) for part in group])
+                                   for name, values in known.arrays.items()})
+            content = Content(arrays, facts)
+            self._set_time(content, facts, number, step, time)
+            content.set_box(self.box(facts))
+            c.library().granular_write(pointer, c.byref(content))
+
+    def _set_time(self, content: Content, facts: dict[str, Any], number: int, step: int | None, time: float | None) -> None:
+        """Gives a frame its timestep and time."""
         if content.timestep == c.NO_TIMESTEP:
-            self._told.warn("the input has no field data 'timestep': " + ("its time is taken for it" if step is not None else
-                                                                         "frames are counted from 0"))
+            if self.style in ("", "local") or ("*" in os.path.basename(self._path) and step is None):
+                self._told.warn("the input has no field data 'timestep': " + ("its time is taken for it" if step is not None else
+                                                                             "frames are counted from 0"))
             content.timestep = int(step) if step is not None else number
         of_file = facts["time"] is not None and len(facts["time"]) == 1
         content.has_time = int(of_file or time is not None)
         content.time = float(facts["time"][0]) if of_file else float(time or 0)
-        content.set_box(self.box(facts))
-        c.library().granular_write(pointer, c.byref(content))
+
+    def arrange(self, arrays: dict[str, Any]) -> dict[str, Any]:
+        """Returns the rows of all ranks in the order of the file."""
+        return arrays
 
     def box(self, facts: dict[str, Any]) -> c.CBox | None:
         """Returns the box that is written."""
@@ -287,6 +328,10 @@ class GranularLocalWriter(Writer):
         return rows
 
 
+#: Arrays of cells that files have.
+_CELLS = ("v_avg", "volumefraction", "radius", "pressure", "sigma", "tau")
+
+
 class GranularEulerWriter(Writer):
     style = "euler"
 
@@ -296,24 +341,76 @@ class GranularEulerWriter(Writer):
         return made
 
     def take(self, data: Any) -> Rows:
+        if not data.IsA("vtkCompositeDataSet"):
+            return self._cells(data)
+        rows, blocks, parts = Rows(data), data.NewIterator(), []
+        blocks.InitTraversal()
+        while not blocks.IsDoneWithTraversal():
+            part = self._cells(blocks.GetCurrentDataObject(), rows.facts)
+            if rows.facts["timestep"] is None and part.facts["timestep"] is not None:
+                rows.facts = {**part.facts, "PointOrigin": None}
+            parts += [part.arrays] if len(part) else []
+            blocks.GoToNextItem()
+        known = [name for name in parts[0] if all(name in arrays for arrays in parts) and name != "place"] if parts else []
+        rows.arrays = {name: numpy.concatenate([arrays[name] for arrays in parts]) for name in known} or {"points": numpy.empty((0, 3))}
+        return rows
+
+    def _cells(self, data: Any, facts: dict[str, Any] | None = None) -> Rows:
+        """Takes the cells of a data set, which may be a block of one with such facts. Those of a grid have a place in it."""
         rows = Rows(data)
-        if data.IsA("vtkImageData"):
-            if not data.GetDirectionMatrix().IsIdentity():
-                raise c.Error(f"{c.shown(self._path)}: expected an image along the axes, got a turned one")
-            extent, origin, spacing = data.GetExtent(), data.GetOrigin(), data.GetSpacing()
-            along = [origin[i] + (numpy.arange(extent[2 * i], extent[2 * i + 1]) + 0.5) * spacing[i] for i in range(3)]
-            z, y, x = numpy.meshgrid(*along[::-1], indexing="ij")
-            rows.arrays["points"] = numpy.stack([x, y, z], axis=-1).reshape(-1, 3)
-            attributes, ghosts = data.GetCellData(), data.GetCellGhostArray()
-        elif data.IsA("vtkPointSet"):
-            rows.arrays["points"] = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else \
-                numpy.empty((0, 3))
+        if facts is not None and rows.facts["Coordinates"] is None:
+            rows.facts = {**facts, "timestep": rows.facts["timestep"]}
+        if data.IsA("vtkPointSet"):
+            rows.add_points(data)
             attributes, ghosts = data.GetPointData(), data.GetPointGhostArray()
+        elif data.IsA("vtkImageData") or data.IsA("vtkRectilinearGrid"):
+            first, along = data.GetExtent()[::2], self._middles(data)
+            for name, axes in (("points", along), ("place", [first[i] + numpy.arange(len(along[i])) for i in range(3)])):
+                z, y, x = numpy.meshgrid(*axes[::-1], indexing="ij")
+                rows.arrays[name] = numpy.stack([x, y, z], axis=-1).reshape(-1, 3)
+            rows.arrays["points"] = rows.arrays["points"] + (0 if rows.facts["PointOrigin"] is None else rows.facts["PointOrigin"].reshape(3))
+            rows.facts["PointOrigin"] = None
+            attributes, ghosts = data.GetCellData(), data.GetCellGhostArray()
         else:
-            raise c.Error(f"{c.shown(self._path)}: expected points or a vtkImageData of cells to write, got a {data.GetClassName()}")
-        rows.see(attributes, len(rows.arrays["points"]))
+            raise c.Error(f"{c.shown(self._path)}: expected points, a vtkImageData or a vtkRectilinearGrid of cells to write, got a "
+                          f"{data.GetClassName()}")
+        if len(rows):
+            rows.see(attributes, len(rows), _CELLS)
+            for name in _CELLS[:4]:
+                if name not in rows.arrays:
+                    raise c.Error(f"{c.shown(self._path)}: column '{name}': expected the array in the data of the "
+                                  f"{'cells' if 'place' in rows.arrays else 'points'}, got none")
         rows.leave_out(ghosts)
         return rows
+
+    def _middles(self, data: Any) -> list[Any]:
+        """Returns the middles of the cells of a grid along its axes. A flat one has cells in its plane."""
+        extent, middles = data.GetExtent(), []
+        if data.IsA("vtkImageData") and not data.GetDirectionMatrix().IsIdentity():
+            raise c.Error(f"{c.shown(self._path)}: expected an image along the axes, got a turned one")
+        for axis, name in enumerate("XYZ"):
+            first, last = extent[2 * axis:2 * axis + 2]
+            if data.IsA("vtkImageData"):
+                numbers = numpy.arange(first, max(last, first + 1) if last >= first else first) + (0 if last == first else 0.5)
+                middles.append(data.GetOrigin()[axis] + numbers * data.GetSpacing()[axis])
+            else:
+                faces = vtk_to_numpy(getattr(data, f"Get{name}Coordinates")()).astype(float)
+                middles.append(faces if last == first else faces[:-1] + (faces[1:] - faces[:-1]) / 2)
+        return middles
+
+    def arrange(self, arrays: dict[str, Any]) -> dict[str, Any]:
+        place = arrays.pop("place", None)
+        if not len(arrays["points"]):
+            return {"points": numpy.empty((0, 3)), **{name: numpy.empty((0, 3) if name == "v_avg" else 0) for name in _CELLS[:4]}}
+        if place is None:
+            return arrays
+        order = numpy.lexsort(place.T)  # by z, then y, then x
+        return {name: values[order] for name, values in arrays.items()}
+
+
+#: How corners of a box are numbered: which bound each has along x (1), y (2) and z (4), in voxels, in those of LIGGGHTS-INL, whose x and
+#: z are exchanged, and in hexahedra.
+_CORNERS = numpy.array([[0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 2, 6, 1, 5, 3, 7], [0, 1, 3, 2, 4, 5, 7, 6]])
 
 
 class GranularDecompositionWriter(Writer):
@@ -328,26 +425,46 @@ class GranularDecompositionWriter(Writer):
         if not data.IsA("vtkUnstructuredGrid"):
             raise c.Error(f"{c.shown(self._path)}: expected a vtkUnstructuredGrid of voxels to write, got a {data.GetClassName()}")
         rows, count = Rows(data), data.GetNumberOfCells()
-        if any(data.GetCellType(i) != VTK_VOXEL for i in range(count)):
-            raise c.Error(f"{c.shown(self._path)}: expected voxels to write, got another cell")
-        corners = vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 8) if count else numpy.empty((0, 8), dtype=int)
-        points = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else numpy.empty((0, 3))
-        origin = rows.facts["PointOrigin"]
-        of_cells = (points + (0 if origin is None else origin.reshape(3)))[corners]
-        rows.arrays["lo"], rows.arrays["hi"] = of_cells[:, 0], of_cells[:, 7]
-        sides = numpy.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], dtype=bool)
-        expected = numpy.where(sides, rows.arrays["hi"][:, None], rows.arrays["lo"][:, None])
-        if not numpy.array_equal(of_cells, expected, equal_nan=True):
-            raise c.Error(f"{c.shown(self._path)}: expected voxels along the axes to write, got others")
+        if rows.facts["BoxBounds"] is not None and rows.facts["BoxBounds"].size == 9:
+            raise c.Error(f"{c.shown(self._path)}: expected a box along the axes, got a tilted one, whose subdomains are no voxels")
+        types = numpy.array([data.GetCellType(i) for i in range(count)], dtype=int)
+        bad = numpy.flatnonzero((types != VTK_VOXEL) & (types != VTK_HEXAHEDRON))
+        rows.add_points(data)
+        points = rows.arrays.pop("points")
+        if not len(bad):
+            corners = points[vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 8)] if count else numpy.empty((0, 8, 3))
+            rows.arrays["lo"], rows.arrays["hi"] = numpy.empty((count, 3)), numpy.empty((count, 3))
+            orders = numpy.full(count, -1)
+            for order, sides in reversed(list(enumerate(_CORNERS))):  # the first one that fits counts
+                lo, hi = (corners[:, numpy.flatnonzero(sides == side)[0]] for side in (0, 7))
+                expected = numpy.where(sides[:, None] >> numpy.arange(3) & 1, hi[:, None], lo[:, None])
+                fits = ((corners == expected) | (numpy.isnan(corners) & numpy.isnan(expected))).all(axis=(1, 2))
+                rows.arrays["lo"][fits], rows.arrays["hi"][fits], orders[fits] = lo[fits], hi[fits], order
+            bad = numpy.flatnonzero(orders < 0)
+            reflected = int((orders == 1).sum())
+            if reflected:
+                rows.told.append(f"corners of {reflected} voxel{' are' if reflected == 1 else 's are'} in the order of LIGGGHTS-INL, x and z "
+                                 "exchanged: they were put right")
+        if len(bad):
+            raise c.Error(f"{c.shown(self._path)}: expected voxels, or hexahedra along the axes, got another cell: number {bad[0]} of type "
+                          f"{types[bad[0]]}")
         for name, own in (("nlocal", ("nlocal",)), ("proc", ("proc", "procID"))):
-            array = next(filter(None, map(data.GetCellData().GetArray, own)), None)
-            if array:
-                rows.arrays[name] = vtk_to_numpy(array)
+            arrays = [array for array in map(data.GetCellData().GetArray, own) if array and array.GetNumberOfComponents() == 1]
+            if arrays:
+                rows.arrays[name] = _whole_numbers(arrays[0])
         rows.leave_out(data.GetCellGhostArray())
         return rows
 
     def box(self, facts: dict[str, Any]) -> c.CBox | None:
         return None
+
+
+def _whole_numbers(array: Any) -> Any:
+    values = vtk_to_numpy(array)
+    bad = numpy.flatnonzero(~((values >= 0) & (values == numpy.trunc(values))))
+    if len(bad):
+        raise c.Error(f"column '{array.GetName()}': expected whole numbers from 0, got {values[bad[0]]} in cell {bad[0]}")
+    return values
 
 
 WRITERS = {f"vtk{made.__name__}": made for made in (GranularDumpWriter, GranularLocalWriter, GranularEulerWriter, GranularDecompositionWriter)}
