@@ -7,9 +7,8 @@
  *     if (granular_open(&pattern, 1, NULL, &run) != GRANULAR_OK)
  *       puts(granular_last_error()->message);
  *
- * A run is one or more files that are shown as one series of frames. A frame that was read holds arrays: positions,
- * velocities, ids. All functions return GRANULAR_OK or the kind of error; granular_last_error() then has the message of the
- * calling thread. No function throws or prints.
+ * A run is one or more files that are shown as one series of frames. A frame that was read holds arrays: positions, velocities, ids. All
+ * functions return GRANULAR_OK or the kind of error, and granular_last_error() the message of the calling thread. None throws or prints.
  *
  * Null is an error where a pointer is needed, not a crash. Undefined: handles that were closed, released or never returned
  * by this library, pointers to less memory than the function needs, and strings that do not end.
@@ -29,8 +28,7 @@
 #endif
 
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 #define GRANULAR_VERSION_MAJOR 0
@@ -150,7 +148,6 @@ typedef struct granular_open_options
      subdomains whole. The struct is copied; what its user points to must exist until the run is closed */
   const granular_ranks* ranks;
 } granular_open_options;
-
 GRANULAR_API void granular_open_options_init(granular_open_options* options);
 
 /* Opens a run and finds its frames, without reading them. paths: names or patterns of files, at least one. In patterns `*`
@@ -296,9 +293,8 @@ typedef struct granular_destination
 
 /* Reads a frame into memory of the caller: the arrays that the destinations name, and no others; request->arrays does not
  * count. Sets *rows, if not null. Too little room is GRANULAR_BAD_ARGUMENT, and *rows says how many rows there are. */
-GRANULAR_API granular_status granular_read_into(granular_run* run, int64_t frame,
-  const granular_request* request, const granular_destination* destinations, size_t count,
-  int64_t* rows);
+GRANULAR_API granular_status granular_read_into(granular_run* run, int64_t frame, const granular_request* request,
+  const granular_destination* destinations, size_t count, int64_t* rows);
 
 /* Frees a frame and its arrays. Null does nothing. An open run keeps the memory of frames of a dump for the next ones, up to 256 MiB. */
 GRANULAR_API void granular_release(granular_frame* frame);
@@ -365,10 +361,8 @@ typedef struct granular_array
                           lengths; null: not asked for, or not known */
 } granular_array;
 
-/* Returns an array by its number, from 0. */
+/* Returns an array by its number, from 0, or by its name. */
 GRANULAR_API granular_status granular_array_at(const granular_frame* frame, size_t number, granular_array* array);
-
-/* Returns an array by its name. */
 GRANULAR_API granular_status granular_array_named(const granular_frame* frame, const char* name, granular_array* array);
 
 /* A regular grid of cells: its bounds, the edges of a cell, and the cells along each axis. Cell first + (k counts[1] + j) counts[0] + i of
@@ -417,7 +411,6 @@ GRANULAR_API void granular_format_init(granular_format* format);
 
 /* Begins a file under a temporary name. A name with `*` makes a file for each frame. Two frames of one timestep are an error.
  * Text is compressed if the name ends in .gz or .zst; .bin and .lammpsbin are binary. format may be null. Sets *writer.
- *
  * A file of the run that a frame comes from, under any name, is replaced by granular_finish. A frame for it is an error if a
  * frame of that file is not complete, because a simulation may be writing it, or if other files have pieces of its frames. */
 GRANULAR_API granular_status granular_create(const char* path, const granular_format* format, granular_writer** writer);
@@ -485,12 +478,20 @@ GRANULAR_API void granular_close_file(granular_file* file);
 
 /* ---- files ----------------------------------------------------------------------------------- */
 typedef struct granular_names granular_names;
+typedef struct granular_bytes granular_bytes;
 
 /* Finds the files of a run by patterns, in the order of their numbers: see granular_open. Sets *names; free them. */
 GRANULAR_API granular_status granular_find_files(const char* const* patterns, size_t count, granular_names** names);
 GRANULAR_API size_t granular_name_count(const granular_names* names);
 GRANULAR_API const char* granular_name_at(const granular_names* names, size_t number);
 GRANULAR_API void granular_free_names(granular_names* names);
+
+/* Opens any file, plain or packed by gzip or Zstandard, to read its content from the beginning. Sets *bytes; close them. */
+GRANULAR_API granular_status granular_open_bytes(const char* path, granular_bytes** bytes);
+
+/* Reads the next bytes: *got are fewer than most only at the end. There *is_cut is 1 if packed data end early, else 0. */
+GRANULAR_API granular_status granular_read_bytes(granular_bytes* bytes, void* buffer, size_t most, size_t* got, int* is_cut);
+GRANULAR_API void granular_close_bytes(granular_bytes* bytes);
 
 #ifdef __cplusplus
 }

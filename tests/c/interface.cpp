@@ -595,6 +595,28 @@ TEST(CInterface, AFileOfWhichTheSystemDoesNotTellIsAnError)
   EXPECT_NE(message().find("cannot open"), std::string::npos) << message();
 }
 
+TEST(CInterface, ReadsTheContentOfAPackedFileAsFarAsItGoes)
+{
+  const std::string packed = content(good("tri_000050.dump.gz"));
+  const std::string path = std::string(GRANULAR_OUTPUT) + "/content.gz";
+  for (const std::size_t cut : { 0, 100 })
+  {
+    std::ofstream(path, std::ios::binary) << packed.substr(0, packed.size() - cut);
+    granular_bytes* bytes = nullptr;
+    ASSERT_EQ(granular_open_bytes(path.c_str(), &bytes), GRANULAR_OK) << message();
+    std::string text(1 << 20, ' ');
+    std::size_t got = 0;
+    int is_cut = -1;
+    EXPECT_EQ(granular_read_bytes(bytes, text.data(), text.size(), &got, &is_cut), GRANULAR_OK);
+    EXPECT_EQ(text.substr(0, 14), "ITEM: TIMESTEP");
+    EXPECT_EQ(is_cut, cut == 0 ? 0 : 1);
+    EXPECT_EQ(got == 16699, cut == 0) << got; // by zcat
+    EXPECT_EQ(granular_read_bytes(bytes, text.data(), text.size(), &got, &is_cut), GRANULAR_OK);
+    EXPECT_EQ(got, 0u);
+    granular_close_bytes(bytes);
+  }
+}
+
 TEST(CInterface, Version)
 {
   const std::string version = std::to_string(GRANULAR_VERSION_MAJOR) + "." +

@@ -96,6 +96,11 @@ TEST(CMisuse, NullsAreErrors)
   EXPECT_EQ(granular_finish_files(&begun, 1, 0), GRANULAR_BAD_ARGUMENT);
   EXPECT_EQ(granular_hold_file(begun, 0), GRANULAR_BAD_ARGUMENT);
   granular_close_file(begun);
+  granular_bytes* bytes = nullptr;
+  expect_null_error(granular_open_bytes(nullptr, &bytes), "a path");
+  expect_null_error(granular_open_bytes(path, nullptr), "bytes");
+  expect_null_error(granular_read_bytes(nullptr, nullptr, 0, nullptr, nullptr), "bytes");
+  granular_close_bytes(nullptr);
   expect_null_error(granular_find_files(nullptr, 1, &names), "names");
   expect_null_error(granular_find_files(&path, 1, nullptr), "names");
   EXPECT_EQ(granular_name_count(nullptr), 0u);

@@ -197,6 +197,8 @@ _FUNCTIONS = {
     "granular_finish_files": (POINTER(c_void_p), c_size_t, c_int),
     "granular_apply": (POINTER(Task), POINTER(c_void_p), c_size_t, POINTER(c_size_t)),
     "granular_find_files": (_NAMES, c_size_t, POINTER(c_void_p)),
+    "granular_open_bytes": (c_char_p, POINTER(c_void_p)),
+    "granular_read_bytes": (c_void_p, c_void_p, c_size_t, POINTER(c_size_t), POINTER(c_int)),
 }
 _OTHERS = {  # without a status: result and arguments
     "granular_open_options_init": (None, POINTER(OpenOptions)),
@@ -208,6 +210,7 @@ _OTHERS = {  # without a status: result and arguments
     "granular_release": (None, c_void_p),
     "granular_abandon": (None, c_void_p),
     "granular_file_name": (c_char_p, c_void_p),
+    "granular_close_bytes": (None, c_void_p),
     "granular_close_file": (None, c_void_p),
     "granular_name_count": (c_size_t, c_void_p),
     "granular_name_at": (c_char_p, c_void_p, c_size_t),
