@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Thermo tables of logs are the numbers that Python reads in known lines, and those that the same runs wrote into other files."""
+import bz2
 import gzip
 import importlib.util
+import lzma
 import os
 import pickle
 import re
@@ -45,6 +47,11 @@ def written(text, name="made.txt"):
     with open(name, "wb") as stream:
         stream.write(text if isinstance(text, bytes) else text.encode())
     return name
+
+
+def zstandard(content):
+    """A frame of Zstandard (RFC 8878) with one block that is stored as it is."""
+    return b"\x28\xb5\x2f\xfd\0\x58" + (len(content) << 3 | 1).to_bytes(3, "little") + content
 
 
 def lines_of(name):
@@ -141,7 +148,7 @@ same(numbers, [float(f"{step}e-5") for step in log.steps])
 frames = vg.open(os.path.join(DATA, "..", "grains.dump"), dt=2e-5)
 same(read(written("".join(["Step Temp\n", *(f"{step} 1\n" for step in frames.steps)])), dt=2e-5).times, frames.times)
 
-# ---- the screen, another line end, gzip, and logs one after the other ----
+# ---- the screen, another line end, packed logs, and logs one after the other ----
 screen = read(os.path.join(DATA, "lammps_screen.txt"), "lammps_screen.txt:32: expected 6")
 with open(lammps, "rb") as stream:
     whole = stream.read()
@@ -149,7 +156,8 @@ packed = gzip.compress(whole)
 half = whole.index(b"clear\n")
 logs = [written(whole[:half], "first.txt"), written(whole[half:], "second.txt")]
 for other in (screen, read(written(whole.replace(b"\n", b"\r\n")), "made.txt:52"), read(written(packed, "packed.gz"), "packed.gz:52"),
-              read(logs, "first.txt:52"), pickle.loads(pickle.dumps(log))):
+              read(written(bz2.compress(whole), "log.bz2"), "log.bz2:52"), read(written(lzma.compress(whole), "log.xz"), "log.xz:52"),
+              read(written(zstandard(whole), "log.zst"), "log.zst:52"), read(logs, "first.txt:52"), pickle.loads(pickle.dumps(log))):
     assert other.columns == log.columns and [run.columns for run in other.runs] == [run.columns for run in log.runs]
     for name in log:
         same(other[name], log[name])
@@ -220,7 +228,8 @@ for name in ("lammps.txt", "liggghts.txt"):
                 same(part[column], rows[column][:len(part)])
 MEMORY = "Memory usage per processor = 4 Mbytes\n"
 TABLE = "Step Temp Press \n       0 1 2 \n      10 3 4 \n      20 5 6 \n"
-read(written(gzip.compress(TABLE.encode())[:-9], "cut.gz"), "cut.gz: expected complete gzip data")
+for pack, name in ((gzip.compress, "gzip"), (bz2.compress, "bzip2"), (lzma.compress, "xz"), (zstandard, "Zstandard")):
+    read(written(pack(TABLE.encode())[:-9], "cut"), f"cut: expected complete {name} data")
 
 # ---- the form of newer versions of LAMMPS, by their documentation: centred names, and yaml ----
 numbers = [[0, 1.5, -2], [10, float("inf"), 3e-7]]
