@@ -75,7 +75,7 @@ def main(what, program, plugin, *rest):
     if what == "readers":
         compare([program], plugin, "outputs.py", rest or list(files_of(FORMS)), what)
         return
-    for ranks, mode in ((1, []), (2, []), (3, []), (3, ["--sym"])):
+    for ranks, mode in ((1, []), (2, ["--sym"]), (3, [])):
         compare([*rest, str(ranks), program, "--dr", *mode], plugin, "filters.py", [], f"filters_{ranks}{''.join(mode)}")
 
 

@@ -27,7 +27,7 @@ class Algorithm(VTKPythonAlgorithmBase):
     def __init__(self, inputs: int = 0) -> None:
         super().__init__(nInputPorts=inputs, nOutputPorts=len(self.ports), outputType=self.ports[0])
         self.values = dict(self.defaults)
-        self._message = ""
+        self._message, self._cancelled = "", False
         self._told = Told(self)
 
     def GetErrorMessage(self) -> str:
@@ -44,13 +44,17 @@ class Algorithm(VTKPythonAlgorithmBase):
     def _guarded(self, work: Callable[[], None], outputs: Any) -> int:
         """Does a part of an update. An error empties the outputs and is told once, though pipelines repeat requests."""
         self._told.watch()
+        if self._cancelled:  # a request to stop holds for one update, and observers of progress may have repeated it
+            self._cancelled = False
+            self.SetAbortExecute(0)
         try:
             with no_garbage_collected():
                 work()
         except c.Cancelled:
-            self._message = ""
-            self.SetAbortExecute(0)
+            self._message, self._cancelled = "", True
             self.Modified()
+            for port in range(outputs.GetNumberOfInformationObjects()):  # or they would be up to date
+                outputs.GetInformationObject(port).Set(Pipeline.DATA_NOT_GENERATED(), 1)
         except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
             if not self._message:
                 self.Modified()  # or VTK takes what is left of an image for the last one
