@@ -50,6 +50,8 @@ public:
     return otherwise;
   }
 
+  std::vector<double> list(const char* name); ///< of any length
+
   /// Throws ArgumentError for a setting that no function asked for.
   void expect_known(const std::string& filter) const;
 
@@ -119,5 +121,7 @@ std::unique_ptr<granular_frame> make_facts(
 // ---- the filters ---------------------------------------------------------------------------------
 Frames apply_packing(FilterTask& task);
 Frames apply_local_join(FilterTask& task);
+Frames apply_decomposition_source(FilterTask& task);
+Frames apply_decomposition(FilterTask& task);
 }
 #endif

@@ -30,6 +30,8 @@ struct Filter
 constexpr Filter filters[] = {
   { "GranularPackingSource", apply_packing },
   { "GranularLocalJoin", apply_local_join },
+  { "GranularDecompositionSource", apply_decomposition_source },
+  { "GranularDecomposition", apply_decomposition },
 };
 
 const Filter& find_filter(const std::string& name)
@@ -135,6 +137,17 @@ int Settings::choice(const char* name, int choices, int otherwise)
       std::to_string(choices - 1) + ", got " + std::to_string(found));
   }
   return static_cast<int>(found);
+}
+
+std::vector<double> Settings::list(const char* name)
+{
+  const granular_setting* const found = this->find(name);
+  if (found != nullptr && found->numbers == nullptr)
+  {
+    throw ArgumentError(std::string("setting '") + name + "': expected numbers, got a text");
+  }
+  return found == nullptr ? std::vector<double>()
+                          : std::vector<double>(found->numbers, found->numbers + found->count);
 }
 
 void Settings::expect_known(const std::string& filter) const

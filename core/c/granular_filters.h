@@ -31,6 +31,9 @@ extern "C"
  *                        "input_row", the row of the input that each line is of (of this rank, from 0), and the arrays that the filter
  *                        makes, but none of the input; facts in one row: "box_of_lines", 1 where the box is that of the lines, and
  *                        "had_parts", 1 where the lines of the input were split
+ * GranularDecompositionSource  no input; results: subdomains with lo, hi, nlocal, proc
+ * GranularDecomposition  inputs: particles; for the mode 2, subdomains with lo, hi and, if known, proc. Results: subdomains as above, in
+ *                        the coordinates of the points; facts in one row: "imbalance", "outside"
  */
 
 /* A property by its name: a text, or numbers, such as that of a choice. Those that are not given have their defaults. */

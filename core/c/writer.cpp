@@ -100,6 +100,8 @@ std::string text_of_cells(
   return encode_euler(cells, dialect, notices, progress);
 }
 
+}
+
 Decomposition decomposition_of(const FrameView& frame)
 {
   const std::vector<double> lo = doubles_of(frame, "lo", 3);
@@ -133,6 +135,8 @@ Decomposition decomposition_of(const FrameView& frame)
   return all;
 }
 
+namespace
+{
 // ---- the styles --------------------------------------------------------------------------------
 using Writer = std::unique_ptr<granular_writer>;
 

@@ -6,6 +6,7 @@
 #include "run.h"
 
 #include "granular/frames/input_files.h"
+#include "granular/grid/subdomains.h"
 #include "granular/parallel/communicator.h"
 
 #include <cstdint>
@@ -39,6 +40,10 @@ struct granular_writer
 
 namespace granular_c
 {
+/// Returns the subdomains of a frame with the arrays lo, hi and, if known, nlocal and proc; unknown ranks are counted. Throws
+/// ArgumentError.
+granular::Decomposition decomposition_of(const granular::FrameView& frame);
+
 /// Begins a file. Throws ArgumentError for a style or dialect that there is not, and the errors of DumpWriter.
 std::unique_ptr<granular_writer> create_writer(
   const std::string& path, const granular_format& format);

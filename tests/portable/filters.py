@@ -41,6 +41,14 @@ def bonds(port=1, **properties):
     return reader("GranularLocalReader", "local/chain_bonds.dump", port=port, **properties)
 
 
+def grains(**properties):
+    return reader("GranularDumpReader", "grains.dump", **properties)
+
+
+def subdomains():
+    return simple.GranularDecompositionSource(Bounds=[-0.05, 0.05, -0.05, 0.05, 0, 0.15], ProcessorGrid=[2, 2, 1])
+
+
 def split():
     """Lines that are split at the faces of the box."""
     return simple.GranularLocalJoin(Input=chain(), Lines=bonds(), PeriodicLines="Split", EquilibriumLength=1)
@@ -73,6 +81,17 @@ FILTERS = [
     ("GranularLocalJoin", {}, {"Input": lambda: changed(chain(), SHORT), "Lines": bonds}),
     ("GranularLocalJoin", {}, {"Input": bonds, "Lines": bonds}),
     ("GranularLocalJoin", {}, {"Input": chain, "Lines": lambda: bonds(port=0)}),
+    ("GranularDecompositionSource", {"ProcessorGrid": [2, 0, 3], "NumberOfProcesses": 12, "XCuts": [0.25]}, {}),
+    ("GranularDecompositionSource", {"Bounds": [0, 1, 0, 2, 0, 3], "XCuts": [0.25, 0.2], "ProcessorGrid": [3, 1, 1]}, {}),
+    ("GranularDecomposition", {"ProcessorGrid": [2, 1, 3]}, {"Input": grains}),
+    ("GranularDecomposition", {"ProcessorGrid": [2, 2, 1], "Bounds": [0, 0.02, 1, -1, 1, -1], "ZCuts": []},
+     {"Input": lambda: grains(PointOrigin=[1, 2, 3])}),
+    ("GranularDecomposition", {"Mode": "Subdomains"}, {"Input": lambda: grains(Coordinates="Scaled"), "Subdomains": subdomains}),
+    ("GranularDecomposition", {"Mode": "Subdomains"}, {"Input": grains}),
+    ("GranularDecomposition", {"Mode": "ProcessArray"}, {"Input": grains}),
+    ("GranularDecomposition", {"Mode": "ProcessArray", "ProcessArray": "type", "NumberOfProcesses": 7}, {"Input": grains}),
+    ("GranularDecomposition", {"Mode": "Ranks"}, {"Input": grains}),
+    ("GranularDecomposition", {"Bounds": [float("nan"), 1, 0, 1, 0, 1]}, {"Input": grains}),
 ]
 
 

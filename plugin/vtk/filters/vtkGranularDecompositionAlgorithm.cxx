@@ -11,16 +11,13 @@
 #include <algorithm>
 
 //------------------------------------------------------------------------------
-granular::ProcessGrid vtkGranularDecompositionAlgorithm::MakeGrid(
-  const double* lo, const double* hi) const
+granular::GridRequest vtkGranularDecompositionAlgorithm::DescribeGrid() const
 {
   granular::GridRequest request;
-  std::copy_n(lo, 3, request.lo.begin());
-  std::copy_n(hi, 3, request.hi.begin());
   request.processes = this->NumberOfProcesses;
   std::copy_n(this->ProcessorGrid, 3, request.grid.begin());
   std::copy_n(this->Cuts, 3, request.cuts.begin());
-  return granular::make_process_grid(request);
+  return request;
 }
 
 //------------------------------------------------------------------------------

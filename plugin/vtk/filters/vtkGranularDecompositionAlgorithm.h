@@ -22,7 +22,7 @@ class vtkUnstructuredGrid;
 
 namespace granular
 {
-struct ProcessGrid;
+struct GridRequest;
 }
 
 class VTKGRANULAR_EXPORT vtkGranularDecompositionAlgorithm : public vtkGranularAlgorithm
@@ -82,9 +82,9 @@ protected:
   ~vtkGranularDecompositionAlgorithm() override = default;
 
   /**
-   * Returns the grid that the properties define in a box from lo to hi.
+   * Returns the grid that the properties describe, without its bounds.
    */
-  granular::ProcessGrid MakeGrid(const double* lo, const double* hi) const;
+  granular::GridRequest DescribeGrid() const;
 
   double Bounds[6] = { 0, 1, 0, 1, 0, 1 };
   int NumberOfProcesses = 0;

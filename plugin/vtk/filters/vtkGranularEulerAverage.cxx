@@ -13,6 +13,7 @@
 #include "granular/averages/average.h"
 #include "granular/averages/time_average.h"
 #include "granular/numbers/number_print.h"
+#include "granular/particles/bounds.h"
 
 #include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
@@ -167,7 +168,8 @@ private:
   {
     const vtkGranularEulerAverage& self = *this->Self;
     granular::EulerGridRequest request = DescribeCells(self);
-    std::tie(request.lo, request.hi) = this->Grains->FindBounds(self.Bounds, nullptr);
+    std::tie(request.lo, request.hi) =
+      granular::find_bounds(this->Grains->View, std::to_array(self.Bounds), nullptr);
     if (self.CellsBy == RELATIVE_SIZE)
     {
       if (!(self.CellSizeRelative > 0))

@@ -5,7 +5,7 @@
 #include "private/dump/dump_output.h"
 #include "private/request/request_task.h"
 
-#include "granular/grid/process_grid.h"
+#include "granular/subdomains/decompose.h"
 
 #include "vtkFieldData.h"
 #include "vtkObjectFactory.h"
@@ -27,7 +27,7 @@ private:
     const double* bounds = this->Self->Bounds;
     const granular::Vector3 lo = { bounds[0], bounds[2], bounds[4] };
     const granular::Vector3 hi = { bounds[1], bounds[3], bounds[5] };
-    const granular::ProcessGrid grid = this->Self->MakeGrid(lo.data(), hi.data());
+    const granular::ProcessGrid grid = granular::grid_in(this->Self->DescribeGrid(), lo, hi);
     const auto [first, last] = this->Wanted.RangeOf(grid.size());
     auto* output = this->GetOutput<vtkUnstructuredGrid>();
     FillVoxels(output, { grid.subdomains(first, last) }, { {}, this->Threads }, this->Progress);

@@ -6,8 +6,9 @@ from ._lines import LINES
 from ._proxies import define
 from ._readers import READERS
 from ._sources import SOURCES
+from ._subdomains import SUBDOMAINS
 from ._writers import WRITERS
 
-_classes = {**READERS, **WRITERS, **SOURCES, **LINES}
+_classes = {**READERS, **WRITERS, **SOURCES, **LINES, **SUBDOMAINS}
 definitions = define(_classes)
 globals().update({made.__name__: made for made in _classes.values()})  # where the definitions say they are

@@ -7,7 +7,7 @@ from typing import Any, Iterable
 import numpy
 from vtkmodules import vtkCommonCore as core
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkCellArray, vtkDataSetAttributes, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_VOXEL, vtkCellArray, vtkDataSetAttributes, vtkUnstructuredGrid
 
 from .. import _library as c
 from .._run import _Handle, _to_numpy
@@ -219,6 +219,26 @@ def fill_particles(output: Any, table: Table, form: int = 2) -> None:
             output.GetPointData().SetPedigreeIds(array)
         else:
             output.GetPointData().AddArray(array)
+
+
+def fill_voxels(output: Any, subdomains: dict[str, Any], begin: int, end: int, origin: Any = 0) -> None:
+    """Fills an output with a part of subdomains, of which the arrays lo, hi, nlocal and proc are known, or the first two."""
+    bounds = numpy.stack([subdomains["lo"][begin:end], subdomains["hi"][begin:end]]) - origin
+    # corner i j k of subdomain p is point 8p + 4i + 2j + k, as dump decomposition/vtk numbers points
+    corners = numpy.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    points = core.vtkPoints()
+    points.SetData(numbers("Points", bounds[corners, :, [0, 1, 2]].transpose(2, 0, 1).reshape(-1, 3)))
+    output.SetPoints(points)
+    types = numbers(None, numpy.full(end - begin, VTK_VOXEL, dtype=numpy.uint8))
+    voxels = numpy.array([0, 4, 2, 6, 1, 5, 3, 7]) + 8 * numpy.arange(end - begin)[:, None]
+    cells_of = vtkCellArray()
+    if end > begin:
+        cells_of.SetData(numbers(None, 8 * numpy.arange(end - begin + 1)), numbers(None, voxels.reshape(-1)))
+    output.SetCells(types, cells_of)
+    if "nlocal" in subdomains:
+        output.GetCellData().SetScalars(numbers("nlocal", subdomains["nlocal"][begin:end]))
+    if "proc" in subdomains:
+        output.GetCellData().AddArray(numbers("proc", subdomains["proc"][begin:end].astype(numpy.int32)))
 
 
 def fill_lines(output: Any, table: Table) -> None:

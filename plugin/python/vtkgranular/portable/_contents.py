@@ -8,13 +8,16 @@ from typing import Any
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray
-from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_VOXEL, vtkDataSetAttributes
 
 from .. import _library as c
 from .._write import _c_arrays
 
 _COORDINATES = ("Absolute", "Unwrapped", "Scaled")
 DUPLICATE = 1  # of vtkGhostType
+#: How corners of a box are numbered: which bound each has along x (1), y (2) and z (4), in voxels, in those of LIGGGHTS-INL, whose x and
+#: z are exchanged, and in hexahedra.
+_CORNERS = numpy.array([[0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 2, 6, 1, 5, 3, 7], [0, 1, 3, 2, 4, 5, 7, 6]])
 
 
 class Rows:
@@ -66,6 +69,35 @@ class Rows:
         self.facts["PointOrigin"] = None
         points = vtk_to_numpy(data.GetPoints().GetData()).astype(float) if data.GetNumberOfPoints() else numpy.empty((0, 3))
         self.arrays["points"] = points + (0 if origin is None else origin.reshape(3))
+
+    def see_voxels(self, data: Any, place: str = "") -> None:
+        """Takes the cells of an unstructured grid as subdomains: lo, hi, nlocal and proc. place: where they go, in errors."""
+        count = data.GetNumberOfCells()
+        types = numpy.array([data.GetCellType(i) for i in range(count)], dtype=int)
+        bad = numpy.flatnonzero((types != VTK_VOXEL) & (types != VTK_HEXAHEDRON))
+        self.add_points(data)
+        points = self.arrays.pop("points")
+        if not len(bad):
+            corners = points[vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 8)] if count else numpy.empty((0, 8, 3))
+            self.arrays["lo"], self.arrays["hi"] = numpy.empty((count, 3)), numpy.empty((count, 3))
+            orders = numpy.full(count, -1)
+            for order, sides in reversed(list(enumerate(_CORNERS))):  # the first one that fits counts
+                lo, hi = (corners[:, numpy.flatnonzero(sides == side)[0]] for side in (0, 7))
+                expected = numpy.where(sides[:, None] >> numpy.arange(3) & 1, hi[:, None], lo[:, None])
+                fits = ((corners == expected) | (numpy.isnan(corners) & numpy.isnan(expected))).all(axis=(1, 2))
+                self.arrays["lo"][fits], self.arrays["hi"][fits], orders[fits] = lo[fits], hi[fits], order
+            bad = numpy.flatnonzero(orders < 0)
+            reflected = int((orders == 1).sum())
+            if reflected:
+                self.told.append(f"corners of {reflected} voxel{' are' if reflected == 1 else 's are'} in the order of LIGGGHTS-INL, x and z "
+                                 "exchanged: they were put right")
+        if len(bad):
+            raise c.Error(f"{place}expected voxels, or hexahedra along the axes, got another cell: number {bad[0]} of type "
+                          f"{types[bad[0]]}")
+        for name, own in (("nlocal", ("nlocal",)), ("proc", ("proc", "procID"))):
+            arrays = [array for array in map(data.GetCellData().GetArray, own) if array and array.GetNumberOfComponents() == 1]
+            if arrays:
+                self.arrays[name] = _whole_numbers(arrays[0])
 
     def __len__(self) -> int:
         return len(next(iter(self.arrays.values()), ()))
@@ -136,6 +168,14 @@ def values_of(array: Any) -> Any:
         array = copy
     values = vtk_to_numpy(array)
     return values.reshape(-1, array.GetNumberOfComponents()) if array.GetNumberOfComponents() > 1 else values
+
+
+def _whole_numbers(array: Any) -> Any:
+    values = vtk_to_numpy(array)
+    bad = numpy.flatnonzero(~((values >= 0) & (values == numpy.trunc(values))))
+    if len(bad):
+        raise c.Error(f"column '{array.GetName()}': expected whole numbers from 0, got {values[bad[0]]} in cell {bad[0]}")
+    return values
 
 
 def _is_known(array: Any) -> bool:
@@ -212,4 +252,16 @@ def _ends(data: Any, count: int) -> Any:
             return points.reshape(-1, 6)  # in place
         made[begin:begin + len(first), :3], made[begin:begin + len(first), 3:] = points[first], points[last]
         begin += len(first)
+    return made
+
+
+def voxels(data: Any) -> Content:
+    """Takes cells as subdomains; what is told of them is in `told`."""
+    if data is None or not data.IsA("vtkUnstructuredGrid"):
+        raise c.Error("expected the subdomains as voxels at the second input, got nothing")
+    rows = Rows(data)
+    rows.see_voxels(data)
+    rows.leave_out(data.GetCellGhostArray())
+    made = _content(rows, len(rows))
+    made.told = rows.told
     return made

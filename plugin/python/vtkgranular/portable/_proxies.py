@@ -88,21 +88,26 @@ class Property:
         return made if self.count > 1 else made[0]
 
 
-def _setter(prop: Property) -> Any:
-    def set_value(self: Any, *given: Any) -> None:
-        value = prop.take(given)
-        if self.values.get(prop.name) != value:
-            self.values[prop.name] = value
-            self.Modified()
+def _set(algorithm: Any, name: str, value: Any) -> None:
+    if algorithm.values.get(name) != value:
+        algorithm.values[name] = value
+        algorithm.Modified()
 
-    return set_value
+
+def _setter(prop: Property) -> Any:
+    return lambda self, *given: _set(self, prop.name, prop.take(given))
 
 
 def _add_setters(made: type, elements: list[Any]) -> None:
     """Gives a class the setters of its properties and their defaults."""
     made.defaults = dict(getattr(made, "defaults", {}))
     for element in elements:
-        command = element.get("command", "")
+        command, clean = element.get("command", ""), element.get("clean_command")
+        if clean and not hasattr(made, command):
+            prop = Property(element)
+            made.defaults[prop.name] = ()
+            setattr(made, clean, lambda self, name=prop.name: _set(self, name, ()))
+            setattr(made, command, lambda self, value, prop=prop: _set(self, prop.name, (*self.values[prop.name], prop.kind(value))))
         if not command.startswith("Set") or element.get("information_only") == "1" or element.tag == "InputProperty":
             continue
         prop = Property(element)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArraySelection, vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_VOXEL, vtkCellArray, vtkDataObject, vtkImageData, vtkPartitionedDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkImageData, vtkPartitionedDataSet, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkExtentTranslator
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
@@ -17,7 +17,7 @@ from .. import _library as c
 from .._options import FILES, FRAME, Option
 from .._run import Run, kind_of
 from ._algorithm import Algorithm, asked_output, piece_of
-from ._arrays import Table, cells, fill_lines, fill_particles, numbers, texts
+from ._arrays import Table, cells, fill_lines, fill_particles, fill_voxels, numbers, texts
 from ._choice import ArrayChoice
 from ._ranks import is_first, ranks_of_paraview, threads_of_rank, together
 
@@ -265,24 +265,7 @@ class GranularDecompositionReader(Reader):
             counts = known["nlocal"]
             imbalance = float(counts.max(initial=0)) * len(counts) / math.fsum(counts) if counts.any() else 1.0
             grid.GetFieldData().AddArray(numbers("imbalance", numpy.array([imbalance])))
-        count = len(known["lo"])
-        begin, end = _part(count, piece)
-        bounds = numpy.stack([known["lo"][begin:end], known["hi"][begin:end]])
-        # corner i j k of subdomain p is point 8p + 4i + 2j + k, as dump decomposition/vtk numbers points
-        corners = numpy.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-        points = vtkPoints()
-        points.SetData(numbers("Points", bounds[corners, :, [0, 1, 2]].transpose(2, 0, 1).reshape(-1, 3)))
-        grid.SetPoints(points)
-        types = numbers(None, numpy.full(end - begin, VTK_VOXEL, dtype=numpy.uint8))
-        voxels = numpy.array([0, 4, 2, 6, 1, 5, 3, 7]) + 8 * numpy.arange(end - begin)[:, None]
-        cells_of = vtkCellArray()
-        if end > begin:
-            cells_of.SetData(numbers(None, 8 * numpy.arange(end - begin + 1)), numbers(None, voxels.reshape(-1)))
-        grid.SetCells(types, cells_of)
-        if "nlocal" in known:
-            grid.GetCellData().SetScalars(numbers("nlocal", known["nlocal"][begin:end]))
-        if "proc" in known:
-            grid.GetCellData().AddArray(numbers("proc", known["proc"][begin:end].astype(numpy.int32)))
+        fill_voxels(grid, known, *_part(len(known["lo"]), piece))
 
 
 #: Names of components that are not those of a vector along x, y and z.

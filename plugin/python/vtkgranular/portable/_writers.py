@@ -408,11 +408,6 @@ class GranularEulerWriter(Writer):
         return {name: values[order] for name, values in arrays.items()}
 
 
-#: How corners of a box are numbered: which bound each has along x (1), y (2) and z (4), in voxels, in those of LIGGGHTS-INL, whose x and
-#: z are exchanged, and in hexahedra.
-_CORNERS = numpy.array([[0, 1, 2, 3, 4, 5, 6, 7], [0, 4, 2, 6, 1, 5, 3, 7], [0, 1, 3, 2, 4, 5, 7, 6]])
-
-
 class GranularDecompositionWriter(Writer):
     style = "decomposition"
 
@@ -424,47 +419,15 @@ class GranularDecompositionWriter(Writer):
     def take(self, data: Any) -> Rows:
         if not data.IsA("vtkUnstructuredGrid"):
             raise c.Error(f"{c.shown(self._path)}: expected a vtkUnstructuredGrid of voxels to write, got a {data.GetClassName()}")
-        rows, count = Rows(data), data.GetNumberOfCells()
+        rows = Rows(data)
         if rows.facts["BoxBounds"] is not None and rows.facts["BoxBounds"].size == 9:
             raise c.Error(f"{c.shown(self._path)}: expected a box along the axes, got a tilted one, whose subdomains are no voxels")
-        types = numpy.array([data.GetCellType(i) for i in range(count)], dtype=int)
-        bad = numpy.flatnonzero((types != VTK_VOXEL) & (types != VTK_HEXAHEDRON))
-        rows.add_points(data)
-        points = rows.arrays.pop("points")
-        if not len(bad):
-            corners = points[vtk_to_numpy(data.GetCells().GetConnectivityArray()).reshape(-1, 8)] if count else numpy.empty((0, 8, 3))
-            rows.arrays["lo"], rows.arrays["hi"] = numpy.empty((count, 3)), numpy.empty((count, 3))
-            orders = numpy.full(count, -1)
-            for order, sides in reversed(list(enumerate(_CORNERS))):  # the first one that fits counts
-                lo, hi = (corners[:, numpy.flatnonzero(sides == side)[0]] for side in (0, 7))
-                expected = numpy.where(sides[:, None] >> numpy.arange(3) & 1, hi[:, None], lo[:, None])
-                fits = ((corners == expected) | (numpy.isnan(corners) & numpy.isnan(expected))).all(axis=(1, 2))
-                rows.arrays["lo"][fits], rows.arrays["hi"][fits], orders[fits] = lo[fits], hi[fits], order
-            bad = numpy.flatnonzero(orders < 0)
-            reflected = int((orders == 1).sum())
-            if reflected:
-                rows.told.append(f"corners of {reflected} voxel{' are' if reflected == 1 else 's are'} in the order of LIGGGHTS-INL, x and z "
-                                 "exchanged: they were put right")
-        if len(bad):
-            raise c.Error(f"{c.shown(self._path)}: expected voxels, or hexahedra along the axes, got another cell: number {bad[0]} of type "
-                          f"{types[bad[0]]}")
-        for name, own in (("nlocal", ("nlocal",)), ("proc", ("proc", "procID"))):
-            arrays = [array for array in map(data.GetCellData().GetArray, own) if array and array.GetNumberOfComponents() == 1]
-            if arrays:
-                rows.arrays[name] = _whole_numbers(arrays[0])
+        rows.see_voxels(data, f"{c.shown(self._path)}: ")
         rows.leave_out(data.GetCellGhostArray())
         return rows
 
     def box(self, facts: dict[str, Any]) -> c.CBox | None:
         return None
-
-
-def _whole_numbers(array: Any) -> Any:
-    values = vtk_to_numpy(array)
-    bad = numpy.flatnonzero(~((values >= 0) & (values == numpy.trunc(values))))
-    if len(bad):
-        raise c.Error(f"column '{array.GetName()}': expected whole numbers from 0, got {values[bad[0]]} in cell {bad[0]}")
-    return values
 
 
 WRITERS = {f"vtk{made.__name__}": made for made in (GranularDumpWriter, GranularLocalWriter, GranularEulerWriter, GranularDecompositionWriter)}

@@ -100,14 +100,6 @@ public:
    * Collective.
    */
   Particles(vtkDataObject* input, granular::Communicator& ranks);
-
-  /**
-   * Returns the box: the given bounds if each lower one is below its upper one, otherwise the box in the field data.
-   * Throws Error if there is none; UnsupportedError for a tilted box, with the text `tilted`, or, if tilted is null,
-   * for a box without axis-aligned bounds.
-   */
-  std::pair<granular::Vector3, granular::Vector3> FindBounds(
-    const double given[6], const char* tilted) const;
 };
 }
 
