@@ -77,7 +77,7 @@ def both(reader, **properties):
 
 # ---- single particles ----------------------------------------------------------------------------------------------
 
-RUNS = [(["grains.dump"], {}, "v radius image", "17 3 5-9 999999"), (["plain.dump"], {}, "v type", ""),
+RUNS = [(["grains.dump"], {}, "v radius image", "17 3 5-9 999999 9000-9009"), (["plain.dump"], {}, "v type", ""),
         (["ortho_image.dump"], {}, "type", "100-300:10"), (["local/chain.dump"], {}, "mol v", ""),
         (["process_0.dump", "process_50.dump"], {"use_images": False}, "proc", "1-20"),
         (["paths/walk.dump.gz"], {}, "v c_shift", "")]
@@ -87,7 +87,7 @@ for names, plainly, arrays, ids in RUNS:
     paths = plain_paths.paths(frames, **plainly)
     reader = reader_of(*names)
     reader.UpdateInformation()
-    found = both(reader, Arrays=arrays, Ids=ids)
+    found = both(reader, Arrays=arrays, Ids=ids, said="ids that are in no frame: 999999\n" if "999999" in ids else None)
     # the particles that are there, ascending, each with its arrays
     chosen = [i for i in paths if not ids or any(
         int(word.split("-")[0]) <= i <= int(word.split("-")[-1].split(":")[0]) and
@@ -116,7 +116,7 @@ frames = plain_dump.read(os.path.join(data, "grains.dump"))
 assert history(all_particles, "expected at most 1000 particles for columns of their own, got 1200: select fewer, or take STATISTICS") == {}
 assert len(both(all_particles, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
                                                  if int(i) % 2 == 0})
-assert list(both(all_particles, Ids="-5")) == ["time", "timestep"]
+assert list(both(all_particles, Ids="-5 7000 7001,7002 7003 8000 8001", said="in no frame: -5, 7000, 7001, 7002, 7003 and 2 others")) == ["time", "timestep"]
 assert len(both(all_particles, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
 assert both(walk, FrameStride=7, Ids="5")["timestep"].tolist() == list(range(0, 601, 140))
 

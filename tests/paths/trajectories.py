@@ -163,7 +163,7 @@ def chosen(lines):
     return sorted(lines)
 
 
-assert chosen(both(Ids="17, 42,100-110:5 999999")) == [17, 42, 100, 105, 110]
+assert chosen(both(Ids="17, 42,100-110:5 999999", said="in no frame: 999999")) == [17, 42, 100, 105, 110]
 assert chosen(both(EveryNth=7)) == [i for i in ids if i % 7 == 0]
 assert chosen(both(EveryNth=7, Ids="1-100")) == [i for i in ids if i % 7 == 0 and i <= 100]
 last = {int(i): place for i, place in zip(frames[2].columns["id"], frames[2].stack("xyz"))}
@@ -181,7 +181,7 @@ assert chosen(both(NumberOfSamples=20, Seed=1)) != sample
 assert set(chosen(both(NumberOfSamples=10))) < set(sample)
 assert chosen(both(NumberOfSamples=100000)) == sorted(last)
 assert len(chosen(both(NumberOfSamples=5, EveryNth=50, SelectionFrame=1))) == 5
-assert both(Ids="-7") == {}
+assert both(Ids="-7", said="in no frame: -7") == {}
 assert both(NumberOfSamples=3, SelectionFrame=0) == {}
 for frame in (3, -4):
     assert both(NumberOfSamples=3, SelectionFrame=frame, said=f"expected a SelectionFrame from -3 to 2, got {frame}") == {}

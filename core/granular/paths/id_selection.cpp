@@ -77,6 +77,10 @@ IdSelection::IdSelection(std::string_view text)
   {
     listed_ = true;
     const Range range = read_range(word);
+    if (range.first == range.last)
+    {
+      named_.push_back(range.first);
+    }
     // differences of any two integers fit without a sign
     const std::uint64_t length =
       static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);

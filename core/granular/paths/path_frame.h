@@ -64,6 +64,9 @@ public:
   /// Leaves only the ids of a list.
   void keep_only(std::span<const std::int64_t> ids);
 
+  /// The ids that the text names by themselves, and not in ranges.
+  const std::vector<std::int64_t>& named() const noexcept { return named_; }
+
   bool is_all() const noexcept { return !listed_ && !narrowed_ && multiple_ == 1; }
 
   bool holds(std::int64_t id) const noexcept
@@ -84,6 +87,7 @@ private:
   bool is_listed(std::int64_t id) const noexcept;
 
   bool listed_ = false;
+  std::vector<std::int64_t> named_;
   IdSet ids_;                 ///< of short ranges
   std::vector<Range> ranges_; ///< the long ones
   bool narrowed_ = false;

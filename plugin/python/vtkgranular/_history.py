@@ -27,7 +27,8 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
     "position"          unwrapped: continuous across periodic faces, shape (frames, particles, 3); nan where a particle is absent
     names of arrays     shape (frames, particles) or (frames, particles, components)
 
-    Of a reader only ids, positions and these arrays are read. Raises RuntimeError as vtkgranular.update does.
+    Of a reader only ids, positions and these arrays are read. A warning names single ids that are in no frame. Raises RuntimeError as
+    vtkgranular.update does, and ValueError if no frame has any of the ids.
     """
     import numpy
     from paraview import servermanager
@@ -44,6 +45,8 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
             parts.setdefault(match[1], []).append(values)
             if match[1] == "position":
                 found["id"].append(int(match[2]))
+    if ids and not found["id"]:
+        raise ValueError(f"expected ids of particles, got {ids!r}, of which no frame has any")
     found["id"] = numpy.array(found["id"], dtype=numpy.int64)
     for name, values in parts.items():
         found[name] = numpy.stack(values, axis=1)

@@ -131,6 +131,7 @@ private:
   {
     const granular::Paths paths = this->Join(
       this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress), false);
+    this->NoteAbsent(paths.ids);
     this->Headers = paths.headers;
     std::int64_t count = static_cast<std::int64_t>(paths.ids.size());
     this->Group.sum({ &count, 1 });

@@ -68,6 +68,10 @@ private:
       : this->Frames.Load(this->Numbers, this->Request, this->Notices, this->Progress);
     this->Progress.set_part(0.8, 1);
     this->Paths = this->Join(std::move(frames), this->Self->PeriodicLines == SPLIT);
+    if (this->Self->Tail == 0)
+    {
+      this->NoteAbsent(this->Paths.ids);
+    }
     this->Lines = granular::draw_paths(this->Paths, this->Origin);
     this->ChooseLines();
     this->FillLines();

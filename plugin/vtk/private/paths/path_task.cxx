@@ -3,6 +3,7 @@
 
 #include "private/dump/dump_input.h"
 
+#include "granular/common/words.h"
 #include "granular/geometry/box.h"
 #include "granular/memory/block.h"
 #include "granular/parallel/executor.h"
@@ -13,9 +14,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace vtkGranularPrivate
 {
@@ -258,6 +262,35 @@ void vtkGranularPathAlgorithm::PathTask::ChooseParticles()
   selection.keep_only(samples > 0
       ? granular::sample_ids(ids, samples, this->Self->Seed, this->Group)
       : granular::share_ids(ids, this->Group));
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPathAlgorithm::PathTask::NoteAbsent(const std::vector<std::int64_t>& ids)
+{
+  constexpr std::size_t most = 5;
+  const granular::IdSelection& selection = this->Request.selection;
+  std::vector<std::int64_t> named;
+  std::ranges::copy_if(selection.named(), std::back_inserter(named),
+    [&](std::int64_t id) { return selection.holds(id); });
+  std::vector<std::int64_t> found(named.size());
+  std::ranges::transform(named, found.begin(),
+    [&](std::int64_t id) { return std::ranges::binary_search(ids, id) ? 1 : 0; });
+  this->Group.sum(found);
+  std::vector<std::string> absent;
+  for (std::size_t i = 0; i < named.size(); ++i)
+  {
+    if (found[i] == 0)
+    {
+      absent.push_back(std::to_string(named[i]));
+    }
+  }
+  if (const std::size_t count = absent.size(); count > 0)
+  {
+    absent.resize(std::min(count, most));
+    this->Notices.push_back({ {},
+      "ids that are in no frame: " + granular::join_words(absent, ", ") +
+        (count > most ? " and " + std::to_string(count - most) + " others" : "") });
+  }
 }
 
 //------------------------------------------------------------------------------

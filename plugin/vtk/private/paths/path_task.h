@@ -100,6 +100,11 @@ protected:
   granular::Paths Join(std::vector<granular::PathFrame> frames, bool crossings);
 
   /**
+   * Tells which ids that were named by themselves are not among the ids of the ranks. Collective.
+   */
+  void NoteAbsent(const std::vector<std::int64_t>& ids);
+
+  /**
    * Returns the times of the chosen frames: those of the input, or 0 if it has none.
    */
   std::vector<double> GetTimes();
