@@ -47,6 +47,10 @@ for what, frames, words in (
     faults = check(dump("damaged.dump", *frames), status=1)["faults"]
     assert any(words in fault for fault in faults), (what, faults)
 for what, frames, bounds, words in (
+        ("outside a fixed box, as in a silo that empties", [sound, [sound[0], "2 1 0.112345678 0.2 -0.19 0.1"]], "ff ff ff",
+         "step 1: 1 particles are outside the box along z, by 0.19 at most"),
+        ("in several frames", [sound, ["1 1 0.512345678 1.05 0.5 0.1"], ["1 1 0.512345678 1.1 0.5 0.1"]], "ff ff ff",
+         "2 frames have particles outside the box along y; the first: step 1: 1 particles, by 0.1 at most"),
         ("outside a periodic box", [["1 1 0.5 1.25 0.5 0.1"]], "pp pp pp", "outside the box along y"),
         ("ids that go", [sound, sound[:1]], "ff ff ff", "1 ids are not in the frame after; first at step 1: 2"),
         ("ids that come", [sound[:1], sound], "ff ff ff", "1 ids come in a later frame"),

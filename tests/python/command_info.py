@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import venv
 
 import plain_dump
 from command import GOOD, SAMPLES, content, granular
@@ -43,6 +44,27 @@ granular("nonsense", status=2)
 assert "usage" in granular("--help")[0]
 for command in ("info", "check", "convert", "stats", "show"):
     assert command in granular("--help")[0] and "exit status" in granular(command, "--help")[0]
+
+# a Python without numpy finds another one, or says which it is; files of the current folder are not run
+venv.create("bare", with_pip=False)
+with open("numpy.py", "w", encoding="ascii") as module:
+    module.write("raise SystemExit('a file of the user was run')\n")
+bare = {**os.environ, "PATH": f"bare/bin:{os.path.dirname(sys.executable)}:{os.environ['PATH']}"}
+done = subprocess.run(["bare/bin/python3", os.environ["GRANULAR_COMMAND"], "info", source], capture_output=True, text=True, env=bare)
+assert done.returncode == 0 and "frames   5" in done.stdout and not done.stderr, done
+os.remove("numpy.py")
+script = "import sys; sys.modules['numpy'] = None; from vtkgranular.command import main; sys.exit(main(sys.argv[1:]))"
+done = subprocess.run([sys.executable, "-c", script, "info", source], capture_output=True, text=True)
+assert done.returncode == 1 and f"expected a Python with numpy, got {sys.executable}, which has none" in done.stderr, done
+
+# an error is a document, too
+for arguments, status, expected in (
+        (("info", "odd.dump", "--kind", "euler"), 1, {"path": os.path.abspath("odd.dump"), "line": 1}),
+        (("info", "nowhere.dump"), 1, {"line": None}), (("stats", source, "--frames", "9"), 2, {"path": None, "byte": None}),
+        (("show", source, "--nonsense"), 2, {"message": "unrecognized arguments: --nonsense"}), (("check",), 2, {"column": None})):
+    said = json.loads(granular(*arguments, "--json", status=status)[0])
+    assert list(said) == ["error"] and list(said["error"]) == ["message", "path", "line", "byte", "column"], said
+    assert {name: said["error"][name] for name in expected} == expected, said
 
 # head leaves before all is told, or before anything is; a full disk is an error
 buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}

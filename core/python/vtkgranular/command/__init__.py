@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import json
+import math
 import os
 import re
 import sys
 import warnings
-from typing import Any, Iterator, Sequence
+from typing import Any, Iterator, NoReturn, Sequence
 
 from .._options import FILES, KINDS, Option
 
@@ -33,6 +35,7 @@ Ctrl-C."""
 def add_files(parser: argparse.ArgumentParser) -> None:
     """Adds FILE... and what tells how to read them."""
     parser.add_argument("files", metavar="FILE", nargs="+", help="name or pattern of the files of one run")
+    parser.add_argument("--json", action="store_true", help="prints one JSON document, also of an error")
     add_reading(parser)
 
 
@@ -104,6 +107,18 @@ def chosen(run: Any, text: str | None) -> Any:
         raise ValueError(f"--frames: expected a number or A:B:N, got {text!r}") from None
 
 
+def json_text(document: Any) -> str:
+    """Returns a document as JSON. Numbers that are not finite, which JSON has not, become null."""
+    def finite(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {name: finite(each) for name, each in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [finite(each) for each in value]
+        return value if not isinstance(value, float) or math.isfinite(value) else None
+
+    return json.dumps(finite(document), indent=2, allow_nan=False)
+
+
 def say(text: str) -> None:
     """Prints a remark on one line, where it does not mix with results. Work goes on if nobody hears it."""
     from .._library import shown
@@ -114,13 +129,21 @@ def say(text: str) -> None:
         _drop(sys.stderr)
 
 
+class _Parser(argparse.ArgumentParser):
+    """Raises ValueError for a usage that cannot be."""
+
+    def error(self, message: str) -> NoReturn:
+        self.print_usage(sys.stderr)
+        raise ValueError(message)
+
+
 def parser() -> argparse.ArgumentParser:
     """Returns the parser of all commands."""
     import importlib
 
     from .._folders import VERSION
 
-    made = argparse.ArgumentParser("granular", description=DESCRIPTION, epilog=STATUS)
+    made = _Parser("granular", description=DESCRIPTION, epilog=STATUS)
     made.add_argument("--version", action="version", version=f"granular {VERSION}")
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, text in COMMANDS.items():
@@ -177,9 +200,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:  # the reader of a pipe, such as head, has left
         return status
-    except (ValueError, ImportError) as error:
-        say(str(error))
+    except (ValueError, ImportError, RuntimeError, OSError, MemoryError) as error:
+        text = str(error)
+        if isinstance(error, ImportError) and error.name == "numpy":
+            text = f"expected a Python with numpy, got {sys.executable}, which has none (Debian: python3-numpy; or {sys.executable} -m pip install numpy)"
+        say(text)
+        if "--json" in words:
+            with contextlib.suppress(OSError):
+                byte = getattr(error, "byte", -1)
+                print(json_text({"error": {"message": text, "path": getattr(error, "path", None) or getattr(error, "filename", None),
+                                           "line": getattr(error, "line", None) or None, "byte": byte if byte >= 0 else None,
+                                           "column": getattr(error, "column", None) or None}}), flush=True)
         return USAGE if not isinstance(error, Error) and isinstance(error, ValueError) else WRONG
-    except (RuntimeError, OSError, MemoryError) as error:
-        say(str(error))
-        return WRONG

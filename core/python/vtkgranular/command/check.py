@@ -6,28 +6,27 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 from typing import Any
 
 from .._library import shown
-from . import WRONG, add_files, add_frames, chosen, notices, open_run
+from . import WRONG, add_files, add_frames, chosen, json_text, notices, open_run
 from .info import file_faults, oddities
 from .progress import Bar
 
 MORE = """Faults, which make the exit status 1: frames that end early or cannot be read, missing pieces, timesteps that repeat in a \
-file, ids that repeat in a frame, NaN and infinite numbers, radii that are not positive, particles outside a box at a fixed boundary, or \
-half a box length outside at any. \
-Remarks: what the reader says, steps at odd distances, empty frames, ids that vanish or come, particles a little outside a periodic \
-box, positions with few digits."""
+file, ids that repeat in a frame, NaN and infinite numbers, radii that are not positive, particles farther outside than codes let them go: \
+half a box length, or at a fixed boundary a diameter (without radii a twentieth of the box). \
+Remarks: what the reader says, steps at odd distances, empty frames, ids that vanish or come, particles a little outside the box, positions \
+with few digits."""
 
 FEW_DIGITS = 1e-2  # of the smallest radius
+FAR, FAR_AT_FIXED = 0.5, 0.05  # of the length of the box
 
 
 def options(parser: argparse.ArgumentParser) -> None:
     """Adds the options of check."""
     add_files(parser)
     add_frames(parser)
-    parser.add_argument("--json", action="store_true", help="prints JSON instead of words")
     parser.add_argument("--quiet", "-q", action="store_true", help="prints nothing where nothing is wrong, and no bar")
 
 
@@ -47,6 +46,7 @@ class Checker:
         self._gone = self._new = 0
         self._first_gone = ""
         self._few: tuple[float, int, int] | None = None
+        self._outside: dict[str, list[tuple[str, int, float]]] = {}  # a little, along each axis
 
     def run(self, run: Any) -> None:
         """Looks at files and timesteps."""
@@ -98,7 +98,7 @@ class Checker:
         import numpy
 
         points = frame.points
-        radius = float(frame["radius"].min()) if "radius" in frame else 0.0
+        least, largest = (float(frame["radius"].min()), float(frame["radius"].max())) if "radius" in frame else (0.0, 0.0)
         box = frame.box
         if box is not None and abs(numpy.linalg.det(box.vectors)) > 0:
             parts = (points - box.origin) @ numpy.linalg.inv(box.vectors)
@@ -109,13 +109,16 @@ class Checker:
                 count = int(outside.sum())
                 if not count:
                     continue
-                length = float(numpy.linalg.norm(box.vectors[axis]))
-                text = f"{where}: {count} particles are outside the box along {name}, by {float(beyond[outside, axis].max()) * length:g} at most"
+                length, most = float(numpy.linalg.norm(box.vectors[axis])), float(beyond[outside, axis].max())
+                # codes take particles away, or put them back, when they have moved so far that neighbours are looked for
                 fixed = "f" in kinds[axis]
-                far = float(beyond[outside, axis].max()) > 0.5  # more than a code lets them go before it puts them back
-                (self.faults if fixed or far else self.remarks).append(text + (", where the box is fixed" if fixed else ""))
-        if radius > 0:
-            self._digits(frame, radius)
+                if most > FAR or (fixed and most * length > (2 * largest or FAR_AT_FIXED * length)):
+                    self.faults.append(f"{where}: {count} particles are outside the box along {name}, by {most * length:g} at most" +
+                                       (", where the box is fixed" if fixed else ""))
+                else:
+                    self._outside.setdefault(name, []).append((where, count, most * length))
+        if least > 0:
+            self._digits(frame, least)
 
     def _digits(self, frame: Any, radius: float) -> None:
         """How wrong the digits of the text leave the largest coordinate."""
@@ -139,6 +142,11 @@ class Checker:
             wrong = (": expected " in text and ", got " in text) or "left out" in text
             if not any(text.partition(": ")[2] in fault for fault in self.faults):
                 (self.faults if wrong else self.remarks).append(text)
+        for name, frames in self._outside.items():
+            first, count, _ = frames[0]
+            several = f"{len(frames)} frames have particles outside the box along {name}; the first: {first}: {count} particles"
+            self.remarks.append((f"{first}: {count} particles are outside the box along {name}" if len(frames) == 1 else several) +
+                                f", by {max(frame[2] for frame in frames):g} at most")
         if self._gone:
             self.remarks.append(f"{self._gone} ids are not in the frame after; first at {self._first_gone}")
         if self._new:
@@ -166,9 +174,9 @@ def run(arguments: argparse.Namespace) -> int:
         except RuntimeError as error:
             checker.faults.append(str(error))
     checker.finish(said)
+    found = {"given": arguments.files, "frames": count, "rows": rows, "faults": checker.faults, "remarks": checker.remarks}
     if arguments.json:
-        text = json.dumps({"given": arguments.files, "frames": count, "rows": rows, "faults": checker.faults, "remarks": checker.remarks},
-                          indent=2)
+        text = json_text(found)
     else:
         part = any("not read: " in remark for remark in checker.remarks)
         fine = "no fault in what was read" if part else "nothing is wrong"

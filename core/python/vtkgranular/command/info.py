@@ -5,12 +5,11 @@ Only headers are read, so large files take no longer than the search for their f
 from __future__ import annotations
 
 import argparse
-import json
 from collections import Counter
 from typing import Any
 
 from .._library import shown
-from . import add_files, notices, open_run, say
+from . import add_files, json_text, notices, open_run, say
 
 MORE = "Only headers are read: large files take no longer than the search for their frames."
 
@@ -18,7 +17,6 @@ MORE = "Only headers are read: large files take no longer than the search for th
 def options(parser: argparse.ArgumentParser) -> None:
     """Adds the options of info."""
     add_files(parser)
-    parser.add_argument("--json", action="store_true", help="prints JSON instead of words")
 
 
 def size_text(size: float) -> str:
@@ -37,7 +35,9 @@ def facts(run: Any) -> dict[str, Any]:
     while last > 0 and rows[last] == 0:
         last -= 1
     files = run._file_facts()
-    found: dict[str, Any] = {"kind": run.kind, "files": len(files), "bytes": sum(size for _, size, *_ in files), "frames": len(run)}
+    found: dict[str, Any] = {"kind": run.kind, "files": len(files), "bytes": sum(size for _, size, *_ in files), "frames": len(run),
+                             **dict.fromkeys(("steps", "times", "rows"), []), **dict.fromkeys(("dialect", "units", "label"), ""),
+                             "types": [], "bond_types": [], "box": None, "columns": [], "file_columns": []}
     if len(run):
         frame = run[last]
         box = frame.box
@@ -135,6 +135,6 @@ def run(arguments: argparse.Namespace) -> None:
         found = facts(opened)
     found["odd"] = said + found["odd"]
     if arguments.json:
-        print(json.dumps({"given": arguments.files, **found}, indent=2))
+        print(json_text({"given": arguments.files, **found}))
     else:
         print_facts(found, shown(" ".join(arguments.files)))

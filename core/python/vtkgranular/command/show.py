@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 from .._whole_file import whole_file
-from . import add_files, chosen, open_run
+from . import add_files, chosen, json_text, open_run
 
 MORE = """It draws by the VTK of this Python or of ParaView. Without a display, it draws on a virtual one (Debian packages xvfb and \
 xauth)."""
@@ -55,6 +55,7 @@ def run(arguments: argparse.Namespace) -> None:
         if arguments.color and not frames[0]._is_array(arguments.color):
             frames[0]._raise_no_column(arguments.color)
         files, options, number = opened.files, opened._options, frames._numbers()[0]
+        facts = {"frame": number, "step": frames[0].step, "time": frames[0].time}
     picture = arguments.output or os.path.splitext(os.path.basename(files[0]))[0] + ".png"
     if not picture.endswith(".png"):
         raise ValueError(f"--output: expected a name that ends in .png, got {picture!r}")
@@ -69,4 +70,5 @@ def run(arguments: argparse.Namespace) -> None:
         done = subprocess.run(_with_display([python, program]), input=json.dumps({**given, "picture": temporary}), capture_output=True, text=True)
         if done.returncode or not os.path.getsize(temporary):
             raise RuntimeError(" ".join((done.stdout + done.stderr).split()) or f"{picture}: it was not drawn")
-    print(arguments.output or os.path.basename(picture))
+    shown = {"given": arguments.files, "picture": picture, **facts, "color": arguments.color, "size": given["size"]}
+    print(json_text(shown) if arguments.json else arguments.output or os.path.basename(picture))

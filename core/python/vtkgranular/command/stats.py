@@ -8,8 +8,8 @@ import math
 import sys
 from typing import Any, Iterator
 
-from . import add_files, add_frames, chosen, open_run
-from .info import tell_faults
+from . import add_files, add_frames, chosen, json_text, open_run
+from .info import file_faults, tell_faults
 from .progress import Bar
 
 MORE = """Sums are exact: rounded once, after the last term. With velocities and masses (or radii and densities) there are also the \
@@ -93,6 +93,18 @@ def rows_of(frame: Any, wanted: list[str] | None) -> Iterator[tuple[Any, ...]]:
             yield name, count, "", "", value, ""
 
 
+def document_of(frame: Any, wanted: list[str] | None) -> dict[str, Any]:
+    """Returns the rows of a frame for JSON."""
+    of_columns, of_frame = {}, {}
+    for name, *numbers in rows_of(frame, wanted):
+        named = dict(zip(HEADER[3:], (None if number == "" else number for number in numbers)))
+        if named["sum"] is None and named["mean"] is not None:
+            of_frame[name.replace(" ", "_")] = named["mean"]
+        else:
+            of_columns[name] = named
+    return {"step": frame.step, "time": frame.time, "rows": frame.rows, "columns": of_columns, **of_frame}
+
+
 def run(arguments: argparse.Namespace) -> None:
     """Prints the statistics."""
     wanted = arguments.columns.replace(",", " ").split() if arguments.columns else None
@@ -104,12 +116,18 @@ def run(arguments: argparse.Namespace) -> None:
         else:
             asked = None
         tell_faults(opened)
+        if arguments.json and arguments.csv:
+            raise ValueError("expected one of --csv and --json, got both")
+        documents = []
         table = csv.writer(sys.stdout, lineterminator="\n")
         if arguments.csv:
             table.writerow(HEADER)
         with Bar(opened, arguments.quiet or sys.stdout.isatty()) as bar:
             for i, number in enumerate(frames._numbers()):
                 frame = opened._part(number, columns=asked, threads=arguments.threads).read(bar.within(i, len(frames)))
+                if arguments.json:
+                    documents.append(document_of(frame, wanted))
+                    continue
                 if not arguments.csv:
                     print(f"step {frame.step}, time {frame.time:g}, {frame.rows} rows")
                     print(f"  {'column':22}" + "".join(f"{word:>15}" for word in HEADER[3:]))
@@ -119,3 +137,5 @@ def run(arguments: argparse.Namespace) -> None:
                     else:
                         print(f"  {name:22}" + "".join(f"{number if isinstance(number, (str, int)) else f'{number:.8g}':>15}"
                                                        for number in numbers))
+        if arguments.json:
+            print(json_text({"given": arguments.files, "faults": file_faults(opened), "frames": documents}))
