@@ -113,10 +113,13 @@ for names, plainly, arrays, ids in RUNS:
 
 all_particles, walk = reader_of("grains.dump"), reader_of("paths/walk.dump.gz")
 frames = plain_dump.read(os.path.join(data, "grains.dump"))
-assert history(all_particles, "expected at most 1000 particles for columns of their own, got 1200: select fewer, or take STATISTICS") == {}
+assert history(all_particles, "expected at most 1000 particles for columns of their own, got 1200: select fewer by Ids, EveryNth or NumberOfSamples, or take the Output Statistics") == {}
 assert len(both(all_particles, EveryNth=2)) == 2 + len({int(i) for frame in frames if frame.rows for i in frame.columns["id"]
                                                  if int(i) % 2 == 0})
 assert list(both(all_particles, Ids="-5 7000 7001,7002 7003 8000 8001", said="in no frame: -5, 7000, 7001, 7002, 7003 and 2 others")) == ["time", "timestep"]
+few = history(all_particles, "have no particles: msd begins there", NumberOfSamples=-1, MeanSquareDisplacement=True)
+assert list(few) == list(both(all_particles, NumberOfSamples=10)) + ["msd", "msd_xyz", "msd_particles"] and len(few) == 15
+assert few["msd_particles"][-1] == frames[1].rows, "of all particles"
 assert len(both(all_particles, TimeWindow=(500, 1500), Ids="5")["time"]) == 1
 assert both(walk, FrameStride=7, Ids="5")["timestep"].tolist() == list(range(0, 601, 140))
 

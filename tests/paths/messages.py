@@ -99,7 +99,7 @@ for kind in ("Trajectories", "History"):
             set_all(filter_, **good)
             works(filter_)
         # what cannot be set
-        for name, value, least in (("EveryNth", 0, 1), ("FrameStride", -3, 1), ("NumberOfSamples", -1, 0)):
+        for name, value, least in (("EveryNth", 0, 1), ("FrameStride", -3, 1), ("NumberOfSamples", -2, -1)):
             refuses(filter_, name, value, f"at least {least}")
 
 trajectories = filter_of("Trajectories", reader_of(walk))

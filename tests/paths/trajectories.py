@@ -47,7 +47,7 @@ def times_of(proxy):
 
 
 def draw(source, time=None, said=None, **properties):
-    proxy = GranularTrajectories(Input=source, **properties)
+    proxy = GranularTrajectories(Input=source, **{"NumberOfSamples": 0, **properties})
     lines, messages = update(proxy, time)
     Delete(proxy)
     if said is None:
@@ -117,7 +117,7 @@ for names, form, plainly, arrays in KINDS:
     said = "longer than a quarter of a period" if names[0][:5] in ("ortho", "tri_p", "proce") and not plainly.get(
         "use_images", True) else None
     near = 1e-6 if form.get("Coordinates") == "Scaled" else 1e-12
-    proxy = GranularTrajectories(Input=reader, Arrays=wanted)
+    proxy = GranularTrajectories(Input=reader, Arrays=wanted, NumberOfSamples=0)
     straight, messages = update(proxy, times[-1])
     assert messages == [] or "longer than a quarter of a period" in messages[0] and not plainly.get("use_images", True), messages
     expect(straight, paths, times, steps, frames, arrays, near)
@@ -127,7 +127,7 @@ for names, form, plainly, arrays in KINDS:
     assert fields.GetArray("timestep").GetValue(0) == steps[-1]
     assert fields.GetAbstractArray("Coordinates").GetValue(0) == "Unwrapped"
     through = beside(reader)
-    piped = GranularTrajectories(Input=through, Arrays=wanted)
+    piped = GranularTrajectories(Input=through, Arrays=wanted, NumberOfSamples=0)
     lines, again = update(piped, times[-1])
     assert again == messages, (again, messages)
     if form.get("Coordinates") == "Scaled":  # by the box and back
@@ -180,6 +180,10 @@ assert len(sample) == 20 and sample != ids[:20]
 assert chosen(both(NumberOfSamples=20, Seed=1)) != sample
 assert set(chosen(both(NumberOfSamples=10))) < set(sample)
 assert chosen(both(NumberOfSamples=100000)) == sorted(last)
+assert chosen(both(NumberOfSamples=-1)) == chosen(both(NumberOfSamples=40)), "a few, if nothing else chooses"
+assert chosen(both(NumberOfSamples=-1, EveryNth=7)) == [i for i in ids if i % 7 == 0]
+assert chosen(both(NumberOfSamples=-1, RegionOfInterest=[1, -1, 1, -1, 0, middle])) == sorted(i for i, place in last.items() if 0 <= place[2] <= middle)
+assert len(chosen(both(NumberOfSamples=-1, SelectionFrame=0))) == 40, "of the middle frame, if the selection frame has no particles"
 assert len(chosen(both(NumberOfSamples=5, EveryNth=50, SelectionFrame=1))) == 5
 assert both(Ids="-7", said="in no frame: -7") == {}
 assert both(NumberOfSamples=3, SelectionFrame=0) == {}
@@ -191,7 +195,7 @@ assert {line["time"][0] for lines in both(TimeWindow=[500, 1500]).values() for l
 alone = both(TimeWindow=[1000, 1000])
 assert len(alone) == frames[1].rows and all(len(lines) == 1 and len(lines[0]["points"]) == 1 and lines[0]["speed"][0] == 0
                                             and lines[0]["length"] == 0 for lines in alone.values())
-proxy = GranularTrajectories(Input=all_particles, TimeWindow=[1000, 1000])
+proxy = GranularTrajectories(Input=all_particles, TimeWindow=[1000, 1000], NumberOfSamples=0)
 proxy.UpdatePipeline(0)
 output = proxy.GetClientSideObject().GetOutput()
 assert output.GetNumberOfVerts() == frames[1].rows and output.GetNumberOfLines() == 0
@@ -253,7 +257,7 @@ assert sum(len(each) for each in lines.values()) > 100
 
 times = list(walkers.TimestepValues)
 for source in (walkers, hidden):
-    tail = GranularTrajectories(Input=source, Tail=4, Arrays="*")
+    tail = GranularTrajectories(Input=source, Tail=4, Arrays="*", NumberOfSamples=0)
     assert times_of(tail) == times
     order = [*range(7), 11, 10, 9, 3, 4, 30, 0, 1, 15, 14, 16, 29, 30]
     for number in order:
@@ -287,7 +291,7 @@ for source in (walkers, hidden):
 assert times_of(GranularTrajectories(Input=walkers)) == []
 
 # of particles.dump, whose first frame has no particles, and "*" none of their arrays
-tail = GranularTrajectories(Input=all_particles, Tail=1, Arrays="*")
+tail = GranularTrajectories(Input=all_particles, Tail=1, Arrays="*", NumberOfSamples=0)
 for time in (0, 1000, 2000, 0, 1000, 2000, 1000, 0):
     lines, messages = update(tail, time)
     assert messages == []
@@ -303,7 +307,7 @@ with open("changing.dump", "w") as file:
                    f"ITEM: ATOMS id x y z{extra}\n1 0.{step}1 0.5 0.5{numbers}\n2 0.{step}2 0.5 0.5{numbers}\n")
 changing = GranularDumpReader(FileNames=[os.path.abspath("changing.dump")])
 for source in (changing, beside(changing)):
-    tail = GranularTrajectories(Input=source, Tail=2, Arrays="*")
+    tail = GranularTrajectories(Input=source, Tail=2, Arrays="*", NumberOfSamples=0)
     for time in (0, 1, 2, 3, 4, 3, 2, 1, 0, 4, 0, 2):
         lines, messages = update(tail, time)
         assert messages == [], messages
@@ -318,7 +322,7 @@ for source in (changing, beside(changing)):
 chains = reader_of("local/chain.dump")
 for source in (walkers, chains):
     for name in ("Unwrapped", "Split"):
-        proxy = GranularTrajectories(Input=source, PeriodicLines=name, Arrays="v")
+        proxy = GranularTrajectories(Input=source, PeriodicLines=name, Arrays="v", NumberOfSamples=0)
         proxy.UpdatePipeline(0)
         fields = proxy.GetClientSideObject().GetOutput().GetFieldData()
         assert fields.GetAbstractArray("Coordinates").GetValue(0) == ("Absolute" if name == "Split" else "Unwrapped")

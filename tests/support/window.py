@@ -5,6 +5,16 @@ import subprocess
 from xml.sax.saxutils import quoteattr
 
 
+# What fails is told outside of the window, too.
+SCRIPT = """import os, sys, traceback
+os.chdir({folder!r})
+try:
+    exec({text!r})
+except BaseException:
+    traceback.print_exc(file=sys.__stderr__)
+"""
+
+
 class Window:
     """Events to be played one after the other in a window, in the folder at hand. It has a home of its own: nothing that the user has set
     counts."""
@@ -34,11 +44,11 @@ class Window:
         self.event("propertiesDock/propertiesPanel/Accept", "activate")
 
     def in_shell(self, text):
-        """Adds a script that the window's Python shell runs."""
+        """Adds a script that the window's Python shell runs, in the folder at hand."""
         path = os.path.abspath(f"script_{self.scripts}.py")
         self.scripts += 1
         with open(path, "w") as file:
-            file.write(text)
+            file.write(SCRIPT.format(folder=os.getcwd(), text=text))
         self.event("pythonShellDock/pythonShell/consoleWidget", "executeCommand", f"exec(open({path!r}).read())")
 
     def play(self):

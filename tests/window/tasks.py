@@ -17,6 +17,8 @@ TASKS = [
     ("new; open grains.dump", {"RenderView": ["Grains", "Wireframe"]}),
     ("last frame", {"RenderView": ["Grains", "Wireframe"]}),
     ("filter Clip", {"RenderView": ["Wireframe", "Grains"]}),
+    ("new; open paths/walk.dump.gz; filter GranularTrajectories", {"RenderView": ["Wireframe", "Surface by speed"]}),
+    ("new; open paths/walk.dump.gz; filter GranularHistory", {"RenderView": ["Grains", "Wireframe"], "XYChartView": ["time: 10 series"]}),
     ("new; open local/contacts.dump", {"RenderView": ["Contacts", "Wireframe"]}),
     ("last frame", {"RenderView": ["Contacts", "Wireframe"]}),
     ("new; open local/ovito.local", {"RenderView": ["Contacts", "Wireframe"], "SpreadSheetView": [""]}),
@@ -26,9 +28,11 @@ NEW = """
 from paraview.simple import *
 for each in list(GetSources().values())[::-1]:
     Delete(each)
-for each in GetViews()[1:]:
-    Delete(each)
+for each in GetViews():
+    if each.SMProxy.GetXMLName() != "RenderView":
+        Delete(each)
 SetActiveView(GetViews()[0])
+HideUnusedScalarBars()
 GetAnimationScene().AnimationTime = 0
 """
 LOOK = """
@@ -39,10 +43,16 @@ for number, view in enumerate(GetViews()):
     kind = view.SMProxy.GetXMLName()
     displays = seen.setdefault(kind, [])
     for display in view.Representations:
-        if "Visibility" in display.ListProperties() and display.Visibility:
+        if display.SMProxy.GetProperty("Input") and display.Visibility:  # no legend
             colour = display.ColorArrayName[1] if "ColorArrayName" in display.ListProperties() else ""
             form = display.SMProxy.GetProperty("Representation")
-            displays.append((form.GetElement(0) if form else "") + (" by " + colour if colour else ""))
+            text = (form.GetElement(0) if form else "") + (" by " + colour if colour else "")
+            if kind == "XYChartView":
+                states = display.SMProxy.GetProperty("SeriesVisibility")  # name, "0" or "1", name, ...
+                states = [states.GetElement(i) for i in range(states.GetNumberOfElements())]
+                series = [name for name, on in zip(states[::2], states[1::2]) if on == "1"]
+                text = display.SMProxy.GetProperty("XArrayName").GetElement(0) + ": " + (f"{{len(series)}} series" if len(series) > 2 else ", ".join(series))
+            displays.append(text)
     if kind != "SpreadSheetView":
         view.ViewSize = [300, 300]
         SaveScreenshot("{number}_%d.png" % number, view)
@@ -76,7 +86,7 @@ for number, (task, _) in enumerate(TASKS):
         else:
             window.choose(word.capitalize() + "s", rest[0])
             window.apply()
-    window.in_shell("import os\nos.chdir(%r)\n" % os.getcwd() + LOOK.format(number=number))
+    window.in_shell(LOOK.format(number=number))
 said = window.play()
 assert "ERR|" not in said and "Traceback" not in said
 wrong = []

@@ -36,7 +36,7 @@ def history(reader: Any, ids: str | int | Iterable[int] = "", arrays: str | Iter
     if not isinstance(ids, str):
         ids = " ".join(str(int(number)) for number in numpy.atleast_1d(numpy.asarray(ids)))
     names = arrays if isinstance(arrays, str) else " ".join(arrays)
-    columns = fetch(servermanager.filters.GranularHistory(Input=reader, Ids=ids, Arrays=names, **properties))
+    columns = fetch(servermanager.filters.GranularHistory(Input=reader, Ids=ids, Arrays=names, **{"NumberOfSamples": 0, **properties}))
     found: dict[str, Any] = {"time": columns.pop("time"), "timestep": columns.pop("timestep"), "id": []}
     parts: dict[str, list[numpy.ndarray]] = {}
     for column, values in columns.items():

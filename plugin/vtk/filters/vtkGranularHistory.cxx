@@ -114,7 +114,10 @@ private:
     if (!statistics)
     {
       this->Progress.set_part(0, msd ? 0.5 : 1);
+      const granular::PathRequest all = this->Request;
+      this->ChooseFew(10);
       columns = this->FollowParticles();
+      this->Request = all;
     }
     if (msd || statistics)
     {
@@ -139,7 +142,7 @@ private:
     {
       throw granular::LimitError("expected at most " + std::to_string(MostParticles) +
         " particles for columns of their own, got " + std::to_string(count) +
-        ": select fewer, or take STATISTICS");
+        ": select fewer by Ids, EveryNth or NumberOfSamples, or take the Output Statistics");
     }
     std::vector<Column> columns;
     for (std::size_t path = 0; path < paths.ids.size(); ++path)

@@ -50,9 +50,9 @@ public:
   ///@{
   /**
    * Sets the number of particles to be chosen at random among those of the SelectionFrame, in which fewer may be. 0, the
-   * default: all. The choice depends on the ids and the Seed alone, not on the order of particles or the ranks.
+   * default: all. -1: a few, as a picture shows them well, if nothing else chooses particles. The choice depends on the ids and the Seed alone, not on the order of particles or the ranks.
    */
-  vtkGranularSetRangeMacro(NumberOfSamples, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGranularSetRangeMacro(NumberOfSamples, vtkTypeInt64, -1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(NumberOfSamples, vtkTypeInt64);
   vtkSetMacro(Seed, int);
   vtkGetMacro(Seed, int);

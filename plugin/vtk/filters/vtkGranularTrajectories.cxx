@@ -58,6 +58,7 @@ private:
   void Execute() override
   {
     this->Choose();
+    this->ChooseFew(40);
     if (this->Self->Tail > 0)
     {
       this->KeepTail();
@@ -206,6 +207,7 @@ private:
       [&](std::int64_t place, int) { return this->Paths.headers[frame_of(place)].timestep; });
     this->AddNumbers(
       "speed", 1, [&](std::int64_t place, int) { return speeds[static_cast<std::size_t>(place)]; });
+    this->Output->GetPointData()->SetActiveScalars("speed"); // the colour that ParaView begins with
     const std::vector<std::int64_t> firsts = this->FindFirsts();
     this->AddNumbers("displacement", 3,
       [&](std::int64_t place, int axis)

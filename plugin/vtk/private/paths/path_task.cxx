@@ -189,7 +189,25 @@ void vtkGranularPathAlgorithm::PathTask::Choose()
 {
   this->ReadInput();
   this->ChooseFrames();
-  this->ChooseParticles();
+  this->Request.selection = granular::IdSelection(this->Self->Ids);
+  this->Request.selection.keep_multiples(this->Self->EveryNth);
+  this->ChooseParticles(granular::restricts(this->Self->RegionOfInterest),
+    static_cast<std::size_t>(std::max<vtkTypeInt64>(this->Self->NumberOfSamples, 0)),
+    this->Self->SelectionFrame);
+}
+
+//------------------------------------------------------------------------------
+void vtkGranularPathAlgorithm::PathTask::ChooseFew(std::size_t few)
+{
+  const granular::IdSelection all = this->Request.selection;
+  if (this->Self->NumberOfSamples < 0 && all.is_all())
+  {
+    if (this->ChooseParticles(false, few, this->Self->SelectionFrame) == 0)
+    {
+      this->Request.selection = all;
+      this->ChooseParticles(false, few, static_cast<std::int64_t>(this->Frames.GetSize() / 2));
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -232,19 +250,16 @@ void vtkGranularPathAlgorithm::PathTask::ChooseFrames()
 }
 
 //------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::PathTask::ChooseParticles()
+// Returns the number of particles that a frame has of those that are wanted, if it matters.
+std::size_t vtkGranularPathAlgorithm::PathTask::ChooseParticles(
+  bool hasRegion, std::size_t samples, std::int64_t wanted)
 {
   granular::IdSelection& selection = this->Request.selection;
-  selection = granular::IdSelection(this->Self->Ids);
-  selection.keep_multiples(this->Self->EveryNth);
-  const auto samples = static_cast<std::size_t>(this->Self->NumberOfSamples);
-  const bool hasRegion = granular::restricts(this->Self->RegionOfInterest);
   if (!hasRegion && samples == 0)
   {
-    return;
+    return 0;
   }
   const auto frames = static_cast<std::int64_t>(this->Frames.GetSize());
-  const std::int64_t wanted = this->Self->SelectionFrame;
   if (wanted >= frames || wanted < -frames)
   {
     throw granular::Error("expected a SelectionFrame from " + std::to_string(-frames) + " to " +
@@ -259,9 +274,11 @@ void vtkGranularPathAlgorithm::PathTask::ChooseParticles()
     std::move(this->Frames.Load({ number }, request, this->Notices, this->Progress).front());
   const std::vector<std::int64_t> ids =
     hasRegion ? granular::ids_in_region(frame, this->Self->RegionOfInterest) : frame.ids;
-  selection.keep_only(samples > 0
-      ? granular::sample_ids(ids, samples, this->Self->Seed, this->Group)
-      : granular::share_ids(ids, this->Group));
+  const std::vector<std::int64_t> chosen = samples > 0
+    ? granular::sample_ids(ids, samples, this->Self->Seed, this->Group)
+    : granular::share_ids(ids, this->Group);
+  selection.keep_only(chosen);
+  return chosen.size();
 }
 
 //------------------------------------------------------------------------------

@@ -95,6 +95,11 @@ protected:
   void Choose();
 
   /**
+   * Leaves so many of the particles if the filter is asked for a few: of the SelectionFrame, or of the middle one if that is empty.
+   */
+  void ChooseFew(std::size_t few);
+
+  /**
    * Joins frames to paths of this rank. Uses them up.
    */
   granular::Paths Join(std::vector<granular::PathFrame> frames, bool crossings);
@@ -117,7 +122,7 @@ protected:
 private:
   void ReadInput();
   void ChooseFrames();
-  void ChooseParticles();
+  std::size_t ChooseParticles(bool hasRegion, std::size_t samples, std::int64_t frame);
 };
 
 #endif
