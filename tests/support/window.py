@@ -1,9 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView's window, driven by events of its own tests."""
+"""ParaView's window, driven by events of its own tests, and pictures that scripts in its Python shell save."""
 import os
 import subprocess
 from xml.sax.saxutils import quoteattr
 
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+PIXELS = 500
+
+PICTURE = """
+from paraview.simple import *
+view = GetActiveView()
+view.OrientationAxesVisibility = 0
+SaveScreenshot({path!r}, view, ImageResolution=[{pixels}, {pixels}])
+"""
 
 # What fails is told outside of the window, too.
 SCRIPT = """import os, sys, traceback
@@ -51,14 +62,14 @@ class Window:
             file.write(SCRIPT.format(folder=os.getcwd(), text=text))
         self.event("pythonShellDock/pythonShell/consoleWidget", "executeCommand", f"exec(open({path!r}).read())")
 
-    def play(self):
+    def play(self, **environment):
         """Plays the events to their end, and returns what the program says; kills it after a while."""
         home = os.path.abspath("home")
         os.makedirs(home, exist_ok=True)
         os.chmod(home, 0o700)
         with open("events.xml", "w") as file:
             file.write("\n".join(["<?xml version='1.0'?>", "<pqevents>", *self.events, "</pqevents>\n"]))
-        return run(*self.command, "--test-script=" + os.path.abspath("events.xml"), "--exit", HOME=home, XDG_RUNTIME_DIR=home)
+        return run(*self.command, "--test-script=" + os.path.abspath("events.xml"), "--exit", HOME=home, XDG_RUNTIME_DIR=home, **environment)
 
 
 def run(*command, **environment):
@@ -68,3 +79,22 @@ def run(*command, **environment):
     print(said.stdout, flush=True)
     assert said.returncode == 0, f"exit status {said.returncode} of {command}"
     return said.stdout
+
+
+def picture(name):
+    """Returns a script that saves a picture."""
+    return PICTURE.format(path=os.path.abspath(f"{name}.png"), pixels=PIXELS)
+
+
+def read(name):
+    """Returns the colours of a picture, rows from below."""
+    png = vtkPNGReader()
+    png.SetFileName(f"{name}.png")
+    png.Update()
+    pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())
+    return pixels.reshape(PIXELS, PIXELS, -1)[:, :, :3].astype(int)
+
+
+def drawn(pixels):
+    """Returns where something is before the background, the colour of the corner."""
+    return abs(pixels - pixels[-1, -1]).max(axis=2) > 1

@@ -9,40 +9,12 @@ import sys
 
 import numpy
 from discs import Camera
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
-from window import Window, run
+from window import PIXELS, Window, drawn, picture, read, run
 
-PIXELS = 500
 ANGLE = 30  # degrees, ParaView's default
 WINDOW, PVBATCH = sys.argv[1:]
 DUMP = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 LOWER, UPPER = numpy.array([-0.05, -0.05, 0]), numpy.array([0.05, 0.05, 0.15])  # the header's
-PICTURE = """
-from paraview.simple import *
-view = GetActiveView()
-view.OrientationAxesVisibility = 0
-SaveScreenshot({path!r}, view, ImageResolution=[{pixels}, {pixels}])
-"""
-
-
-def picture(name):
-    """Returns a script that saves a picture."""
-    return PICTURE.format(path=os.path.abspath(f"{name}.png"), pixels=PIXELS)
-
-
-def read(name):
-    """Returns the colours of a picture, rows from below."""
-    png = vtkPNGReader()
-    png.SetFileName(f"{name}.png")
-    png.Update()
-    pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())
-    return pixels.reshape(PIXELS, PIXELS, -1)[:, :, :3].astype(int)
-
-
-def drawn(pixels):
-    """Returns where something is before the background, the colour of the corner."""
-    return abs(pixels - pixels[-1, -1]).max(axis=2) > 1
 
 
 # ---- in the window ----------------------------------------------------------------------------------

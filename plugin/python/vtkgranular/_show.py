@@ -135,9 +135,8 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     by_array = isinstance(radius, str) and not _is_scaled(reader) and \
         (empty or _has_sizes(reader, radius))
     name = radius if by_array else ""
-    # ParaView's own Point Gaussian, which the portable plugin shows, asks for input, port, connection and association, too
-    is_own = display.SMProxy.GetProperty("GrainRadiusArray").GetNumberOfElements() == 1
-    display.GrainRadiusArray = name if is_own else ["0", "0", "0", "0", name]
+    # the portable plugin shows ParaView's own Point Gaussian
+    setattr(display, "GrainRadiusArray" if display.SMProxy.GetProperty("GrainRadiusArray") else "GrainScaleArray", name)
     if by_array:
         display.GrainScale = 1.0
     elif isinstance(radius, str):

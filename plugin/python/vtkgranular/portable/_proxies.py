@@ -24,8 +24,17 @@ _REPRESENTATIONS = """
         <BooleanDomain name="bool"/>
       </IntVectorProperty>
       <StringVectorProperty name="SetScaleArray" command="SelectScaleArray" number_of_elements="5" element_types="0 0 0 0 2"
-                            default_values="0;0;0;0;radius" default_values_delimiter=";" override="1">
-        <Documentation>The point array of the radii, in the unit of the points; radius by default.</Documentation>
+                            default_values="0;0;0;0;radius" default_values_delimiter=";" panel_visibility="advanced" override="1">
+        <!-- radius is in the list, and the default, also where the first frame has no particles -->
+        <ArrayListDomain name="array_list" input_domain_name="input_point_array" none_string="radius"
+                         pick_first_available_array_by_default="0">
+          <RequiredProperties>
+            <Property name="Input" function="Input"/>
+          </RequiredProperties>
+        </ArrayListDomain>
+        <Documentation>
+          The point array of the radii, in the unit of the points; radius by default. Without one all radii are 1: set the factor.
+        </Documentation>
       </StringVectorProperty>
       <IntVectorProperty name="UseScaleFunction" command="SetUseScaleFunction" number_of_elements="1" default_values="0" override="1">
         <BooleanDomain name="bool"/>
@@ -47,7 +56,8 @@ _REPRESENTATIONS = """
         <ExposedProperties>
           <PropertyGroup label="Grains">
             <Property name="GaussianRadius" exposed_name="GrainScale"/>
-            <Property name="SetScaleArray" exposed_name="GrainRadiusArray"/>
+            <!-- another form than GrainRadiusArray, so that state files of either plugin load with the other -->
+            <Property name="SetScaleArray" exposed_name="GrainScaleArray"/>
             <Hints>
               <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Representation" value="Grains"/>
             </Hints>
