@@ -133,10 +133,9 @@ private:
   std::uint64_t shared_ = 0;                ///< hash of the bytes that all ranks have, 0: none
 };
 
-/// Updates the index on rank 0, which alone has notices; then all ranks have the same index. If the format has large runs, files
-/// that are new are looked through by all ranks, each some of them, with its own threads and progress. Rank 0 looks through what
-/// has changed, and what another rank cannot read or sees otherwise. Other options than threads must be the same on
-/// all ranks. Collective. Throws the same error on all ranks, whose indexes then have no frames.
+/// Updates the index on rank 0, which alone has notices; then all ranks have the same index. If the format has large runs, the ranks
+/// share the search in new files, each with its own threads and progress. Rank 0 searches the files that have changed, and those that
+/// another rank cannot read or finds different. Options other than threads must be the same on all ranks. Collective. Throws the same error on all ranks, whose indexes then have no frames.
 void update_run_index(RunIndex& index, Communicator& ranks, const std::vector<std::string>& files,
   const IndexOptions& options, Notices& notices, Progress& progress);
 

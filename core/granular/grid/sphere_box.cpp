@@ -122,7 +122,7 @@ double one_part(double radius, const Vector3& lo, const Vector3& hi)
   return cut_sphere(radius, distances)[part];
 }
 
-/// The part between two planes is the part beyond the one less that beyond the other. Rounding costs some ulps of the
+/// The part between two planes is the part beyond the first plane minus the part beyond the second. Rounding costs some ulps of the
 /// sphere, which for a large box is next to nothing.
 double sum_of_parts(double radius, const Vector3& lo, const Vector3& hi)
 {

@@ -300,7 +300,7 @@ void FrameDecoder::count_rows()
   }
 }
 
-/// The first pieces: of which all was read must have the rows that their headers promise, others no more.
+/// Checks the first pieces: those read to their end must have as many rows as their headers promise, the others at most as many.
 void FrameDecoder::check_counts(std::size_t pieces) const
 {
   for (const PieceRows& range : ranges_)
