@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds the C library by CMake and puts it into the package. Nothing in it depends on the version of Python. GRANULAR_BUILD names a
-build folder that has the library already."""
+build folder that has the library already, GRANULAR_PACKAGE a finished package (packaging/portable)."""
 import glob
 import os
 import re
@@ -27,13 +27,16 @@ class BuildPackage(build_py):
     """The modules and the library, as CMake installs them, in one folder."""
 
     def run(self):
+        package = os.path.join(self.build_lib, "vtkgranular")
+        if "GRANULAR_PACKAGE" in os.environ:
+            self.copy_tree(os.environ["GRANULAR_PACKAGE"], package)
+            return
         build = os.environ.get("GRANULAR_BUILD") or build_library()
         with tempfile.TemporaryDirectory() as prefix:
             for component in ("python", "c"):
                 subprocess.run(["cmake", "--install", build, "--prefix", prefix, "--component", component, "--strip"], check=True)
             (modules,) = glob.glob(os.path.join(prefix, "**", "vtkgranular", "__init__.py"), recursive=True)
             (library,) = glob.glob(os.path.join(prefix, "**", "libgranular.so." + version().split(".")[0]), recursive=True)
-            package = os.path.join(self.build_lib, "vtkgranular")
             self.copy_tree(os.path.dirname(modules), package)
             self.copy_file(os.path.realpath(library), os.path.join(package, os.path.basename(library)))
 
