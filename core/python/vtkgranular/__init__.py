@@ -18,6 +18,7 @@ Open, show, fetch and save with paraview.simple:
     vtkgranular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
     vtkgranular.history(reader, [1, 7], "v")     places and arrays of particles at all times
     vtkgranular.save(filter, "run.dump")         a file of the format that fits the data and the name
+    vtkgranular.film(view, "run.avi")            a film, or pictures, of all frames
     vtkgranular.update(filter, time=0.02)        an update that raises its errors
 
 Around them:
@@ -57,6 +58,7 @@ from ._write import Writer, write
 if TYPE_CHECKING:
     from ._errors import update
     from ._fetch import fetch
+    from ._film import film
     from ._history import history
     from ._plugin import load_plugin
     from ._pool import pool_limit, set_pool_limit
@@ -70,13 +72,13 @@ if TYPE_CHECKING:
     from .vtkGranular import *  # noqa: F403 (the compiled classes, which have stubs)
 
 # Functions of scripts of ParaView, and their modules, which are imported when the first of theirs is asked for.
-_LATER = {"fetch": "_fetch", "history": "_history", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state",
+_LATER = {"fetch": "_fetch", "film": "_film", "history": "_history", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state",
           "pool_limit": "_pool", "preset": "_versions", "process_ids": "_versions", "pvbatch": "_ranks", "reader": "_reader",
           "save": "_save", "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show", "update": "_errors",
           "write_series": "_series"}
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
-__all__ = ["__version__", "fetch", "files", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
+__all__ = ["__version__", "fetch", "files", "film", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
            "process_ids", "pvbatch", "read_log", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write",
            "write_series"]
 

@@ -245,11 +245,11 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
 
     path      the file. Its ending chooses the format: .bonds (contacts and bonds), .euler (cells), .decomposition (subdomains),
               .bin and .lammpsbin (binary dumps), .dump, .lammpstrj, .liggghts, .lammps, .dmp and names that begin with "dump" (text),
-              compressed if .gz or .zst follows; .csv (a table), .npz (numpy), .vtp, .vtu and .vtkhdf (VTK). With `*` in the name,
-              which stands for the timestep, each frame has a file. Without it, the last four hold one frame, and the rows of a
-              table of several frames begin with step and time. Tables have the fewest digits that read back as the same numbers.
-    data      a Frame, or some rows of one: frame[frame["type"] == 1]; a Run, a slice of one or an iterable of frames; or arrays by
-              their names: "points", shape (n, 3), and any others with n rows. See vtkgranular.Writer for lines, cells and subdomains.
+              compressed if .gz or .zst follows; .csv (a table, where rows of several frames begin with step and time), .npz (numpy),
+              .vtp, .vtu and .vtkhdf (VTK), which hold one frame. With `*` in the name, which stands for the timestep, each frame
+              has a file.
+    data      a Frame, or rows of one, as frame[frame["type"] == 1]; a Run, a slice of one or an iterable of frames; or arrays by their
+              names: "points", shape (n, 3), and any others with n rows. See vtkgranular.Writer for lines, cells and subdomains.
     box       a vtkgranular.Box, or three pairs of bounds; None: made from the bounds of the particles. Box, step, time and units
               belong to arrays; frames have their own.
     style     "custom", "atom", "local", "euler", "decomposition", with any name; empty: by the data and the ending
@@ -257,8 +257,7 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
               that a frame comes from, else LAMMPS, INL, Wide
     columns   columns or arrays in their order, as one text or a list; empty: all that the frame has
     numbers   "Automatic" (default): the digits of the file, and what changed exactly; "%g", "%.9g", ... "shortest"
-    label     the word for rows of contacts and bonds
-    scaled, image  of style "atom": xs ys zs (default) or x y z; also ix iy iz
+    label     the word for rows of contacts and bonds; scaled, image: of style "atom" xs ys zs (default) or x y z, and also ix iy iz
     sort      True: rows in the order of their ids
     threads   0 (default): one per core; progress: as for vtkgranular.open
     durable   True: the file is on the disk before it gets its name, and survives a loss of power; False: the system writes it when
@@ -269,9 +268,8 @@ def write(path: str | os.PathLike[str], data: Frame | Run | Mapping[str, Any] | 
 
     Raises vtkgranular.Error with path and column; vtkgranular.ArgumentError for arrays of a wrong shape or type, masked values, two arrays
     with the same column, coordinates beside "points", a name that says nothing of the format, and if there is no frame; ImportError
-    where VTK or its writer is missing. Two frames of one timestep are an error but in a table, and so are frames with other columns
-    there. It is an error to replace a file of the run that has an incomplete frame, because a simulation may
-    be writing it, or pieces of frames.
+    where VTK is missing. Two frames of one timestep are an error, and in a table frames of different columns. It is an error to
+    replace a file of the run that has an incomplete frame, because a simulation may be writing it, or pieces of frames.
     """
     is_arrays = isinstance(data, Mapping) and not isinstance(data, Frame)
     frames = [data] if is_arrays or isinstance(data, Frame) else data

@@ -57,8 +57,7 @@ def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
     remote  True: loads it on the server of a connection, where it must have the same path.
 
     It is not needed with Debian's packages, nor where PV_PLUGIN_PATH names the plugin's folder: a loaded plugin stays, and its
-    path is returned. Raises FileNotFoundError if the plugin is not where this package looks for it, RuntimeError if ParaView
-    refuses to load it.
+    path is returned. Raises FileNotFoundError if there is no plugin, RuntimeError if ParaView refuses to load it.
     """
     from paraview import servermanager, simple
 

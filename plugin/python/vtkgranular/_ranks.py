@@ -35,9 +35,8 @@ def pvbatch(script: str | os.PathLike[str], *arguments: str, ranks: int) -> str:
     arguments  what it finds in sys.argv[1:]
     ranks      the number of processes, at least 1; there may be more than the machine has cores.
 
-    mpirun and pvbatch are those in PATH. With PV_PLUGIN_PATH and PYTHONPATH set as for this process they know the
-    plugin and this package as well. Raises FileNotFoundError if one of them is missing, and RuntimeError, with all
-    that was said, if the script fails or ParaView reports an error.
+    mpirun and pvbatch are those in PATH. With PV_PLUGIN_PATH and PYTHONPATH set as for this process they know the plugin and this
+    package as well. Raises FileNotFoundError if one is missing, and RuntimeError, with all that was said, if the script fails.
     """
     programs = [shutil.which(name) for name in ("mpirun", "pvbatch")]
     if None in programs:

@@ -58,8 +58,7 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     paths       a file, a pattern as the `dump` command has it (see vtkgranular.files), or a list of these: the files of one
                 run. Particle dumps, contacts and bonds, restart files, data files, decompositions and Euler cells are told
                 apart by their contents.
-    dt          the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps, unless the
-                files hold times.
+    dt          the time of one timestep, greater than 0, in the unit of the run. None: timesteps, unless the files hold times
     properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
 
     The plugin must be loaded: see vtkgranular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for

@@ -185,6 +185,32 @@ def _on_first(path: str, work: Callable[[], str]) -> str:
     return told.GetValue(0)
 
 
+@contextlib.contextmanager
+def written_by_paraview(path: str, expect: Callable[[str, str], None]) -> Iterator[str]:
+    """Yields a name for a path in another folder, for ParaView to write one file or several. At the end, they replace the old ones if
+    ParaView has told no error; see whole_files for expect."""
+    errors: list[str] = []
+
+    def look(file: str, old: str) -> None:
+        expect(file, old)
+        if errors:
+            raise RuntimeError(errors[0])
+
+    def finish() -> str:
+        if not os.listdir(os.path.dirname(temporary)):
+            raise RuntimeError(errors[0] if errors else "ParaView wrote no file; its messages say why")
+        stack.close()
+        return ""
+
+    with contextlib.ExitStack() as stack:
+        # absolute: other ranks may be in other folders
+        temporary = _on_first(path, lambda: stack.enter_context(whole_files(os.path.abspath(path), look)))
+        with _told_errors() as told:
+            yield temporary
+        errors += [error.replace(temporary, path) for error in told]
+        _on_first(path, finish)
+
+
 def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> None:
     from paraview import servermanager, simple
 
@@ -207,30 +233,16 @@ def _save_by_paraview(output: Any, path: str, properties: dict[str, Any]) -> Non
     if "DataMode" not in properties:
         properties = {name: value for name, value in properties.items() if name != "EncodeAppendedData"}  # inline data are always encoded
     inputs = _inputs(output, ours=True)
-    errors: list[str] = []
 
     def expect(file: str, old: str) -> None:
         _expect_whole(file)
-        if errors:
-            raise RuntimeError(errors[0])
         if "DataMode" not in properties:
             put_inline(file)
         if _is_one_of(old, inputs):
             raise RuntimeError(f"expected other files to write, got one that is read: {shown(old)}")
 
-    def finish() -> str:
-        if not os.listdir(os.path.dirname(temporary)):
-            raise RuntimeError(errors[0] if errors else "ParaView wrote no file; its messages say why")
-        stack.close()
-        return ""
-
-    with contextlib.ExitStack() as stack:
-        # absolute: other ranks may be in other folders
-        temporary = _on_first(path, lambda: stack.enter_context(whole_files(os.path.abspath(path), expect)))
-        with _told_errors() as told:
-            simple.SaveData(temporary, output, **properties)
-        errors += [error.replace(temporary, path) for error in told]
-        _on_first(path, finish)
+    with written_by_paraview(path, expect) as temporary:
+        simple.SaveData(temporary, output, **properties)
 
 
 def _rows_of(output: Any) -> tuple[dict[str, Any], Any]:
@@ -286,13 +298,12 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 lines or rows  of contacts and bonds: .bonds, or the endings of text dumps
                 subdomains     .decomposition, .vtk, .vtu
                 cells          .euler, .vtk
-                .csv is a table of points, lines, cells or rows, as vtkgranular.write has it, with the fewest digits that read back as
-                the same numbers. WriteTimeSteps=1 puts all frames into it, whose rows begin with step and time, or with `*` in
-                the name into a file each. Columns chooses columns. It is written where the script runs.
+                .csv is a table with all digits, as vtkgranular.write has it, written where the script runs. WriteTimeSteps=1 puts all
+                frames into it, or with `*` in the name into a file each; Columns chooses columns.
                 All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .tsv, .stl and .ply, go to
                 ParaView's writers. VTK's XML gets inline data, as with DataMode Binary, which all versions of libexpat read.
-                Text dumps are compressed if .gz or .zst follows. In the names of tables and of this plugin's formats `*` stands for the
-                timestep, and in those of dumps `%` for the rank.
+                Text dumps are compressed if .gz or .zst follows. In the names of tables and of this plugin's formats `*` stands for
+                the timestep, and in those of dumps `%` for the rank.
     time        the time to write, as for vtkgranular.update
     writer      GranularDumpWriter, GranularLocalWriter, GranularDecompositionWriter or GranularEulerWriter, which take
                 files of any name. None: see path.
@@ -302,9 +313,8 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
     pvserver, ParaView's own writers write in place. A file that is read is replaced after the last frame, and only in a format of
     this plugin.
 
-    Raises ValueError for a name that is not UTF-8, and for an ending that no writer has for such data, and lists those that are
-    known; AttributeError for a property, or a writer, that there is not; RuntimeError with the message if the file could not be
-    written.
+    Raises ValueError for a name that is not UTF-8, and for an ending that no writer has for such data; AttributeError for a property,
+    or a writer, that there is not; RuntimeError with the message if the file could not be written.
     """
     from paraview import servermanager
 

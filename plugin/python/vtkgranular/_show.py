@@ -80,7 +80,7 @@ def _colour_by_type(display: Any, source: Any, view: Any) -> None:
     display.LookupTable = table
 
 
-def _expect_display(view: Any) -> None:
+def expect_display(view: Any) -> None:
     """Raises RuntimeError where ParaView would crash when it draws."""
     window = view.SMProxy.GetRenderWindow()
     if window.IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY"):
@@ -108,9 +108,8 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     reader  a GranularDumpReader, or any source or filter whose first output has points.
     view    a render view; by default the active one, or a new one.
     radius  name of the point array with the radii, in the unit of the points, or one number for all.
-            Ellipsoids and superquadrics have the sizes of their own arrays instead.
-            Where there is no such array, and where the points are scaled coordinates, spheres of
-            half the mean distance of the points are shown.
+            Ellipsoids and superquadrics have the sizes of their own arrays instead. Where there is no such array, and where the points
+            are scaled coordinates, spheres of half the mean distance of the points are shown.
     color   name of a point array to colour by; by default as ParaView decides. "type" gives each type a colour and a
             name of its own.
     box     True: shows the simulation box, the output Box of the reader or source, as well.
@@ -118,15 +117,14 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     legend  True: shows the colour bar of `color`, or the names of the types.
 
     The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the same on any number of
-    ranks. Each pixel has the depth and the light of the surface that is seen there. Colours of numbers span the values of the frame shown now or, if that has no particles, of the last frame.
-
-    Raises RuntimeError if the plugin was not loaded before, or if there is no display to draw on; ValueError if there is no
-    array `color`, or no output for box or bonds.
+    ranks. Each pixel has the depth and the light of the surface that is seen there. Colours of numbers span the values of the frame
+    shown now or, if that has no particles, of the last frame. Raises RuntimeError if the plugin was not loaded before, or if there is
+    no display to draw on; ValueError if there is no array `color`, or no output for box or bonds.
     """
     from paraview import simple
 
     view = view or simple.GetActiveViewOrCreate("RenderView")
-    _expect_display(view)
+    expect_display(view)
     display = simple.Show(reader, view)
     expect_plugin("Grains" in display.GetProperty("Representation").Available)
     display.SetRepresentationType("Grains")

@@ -34,8 +34,7 @@ def preset(name: str) -> str:
 def label_format(text: str) -> dict[str, Any]:
     """Returns the properties that make a colour bar write its numbers in a format, for set_properties.
 
-    text  the format as printf has it, with one conversion of e, f or g: "%.1f", "%g m". ParaView 6.1
-          and later want std::format's "{:.1f}" instead.
+    text  the format as printf has it, with one conversion of e, f or g: "%.1f", "%g m". ParaView 6.1 wants std::format's "{:.1f}".
 
     Raises ValueError if the text has not exactly one such conversion.
     """
@@ -64,8 +63,7 @@ def process_ids(source: Any) -> tuple[Any, str]:
 def set_properties(proxy: Any, **properties: Any) -> None:
     """Sets several properties of a source, filter, display or view of paraview.simple.
 
-    ParaView itself calls this SetProperties up to 6.0, and Set from then on. Raises AttributeError for a property that
-    there is not.
+    ParaView itself calls this SetProperties up to 6.0, and Set from then on. Raises AttributeError for a property that there is not.
     """
     for name, value in properties.items():
         setattr(proxy, name, value)
