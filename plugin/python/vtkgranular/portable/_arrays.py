@@ -2,6 +2,8 @@
 """Frames of the C library as arrays and data sets of VTK, equal to those of the compiled readers."""
 from __future__ import annotations
 
+import ctypes
+import mmap
 from typing import Any, Iterable
 
 import numpy
@@ -22,15 +24,27 @@ def numbers(name: str | None, values: Any) -> Any:
 
     They are copied: filters make arrays that share the memory of others, and know nothing of what numpy keeps.
     """
-    values = numpy.ascontiguousarray(values)
     made = _CLASSES[values.dtype.name]()
     made.SetNumberOfComponents(values.shape[1] if values.ndim > 1 else 1)
-    made.SetNumberOfTuples(len(values))
-    if values.size:
-        vtk_to_numpy(made).reshape(-1)[:] = values.reshape(-1)
+    _fill(made, values)
     if name is not None:
         made.SetName(name)
     return made
+
+
+def _fill(made: Any, values: Any) -> None:
+    made.SetNumberOfTuples(len(values))
+    if values.size:
+        memory = vtk_to_numpy(made).reshape(-1)
+        _ask_for_large_pages(memory)
+        memory[:] = numpy.ascontiguousarray(values).reshape(-1)
+
+
+def _ask_for_large_pages(memory: Any) -> None:
+    """Asks Linux for large pages behind memory that was not used yet: to get small ones takes three times as long as to fill them."""
+    begin, end = -(-memory.ctypes.data // mmap.PAGESIZE) * mmap.PAGESIZE, memory.ctypes.data + memory.nbytes
+    if memory.nbytes >= 2**22 and hasattr(mmap, "MADV_HUGEPAGE"):
+        ctypes.CDLL(None).madvise(ctypes.c_void_p(begin), ctypes.c_size_t(end - begin), mmap.MADV_HUGEPAGE)  # a wish: no matter if it fails
 
 
 def texts(name: str, values: Iterable[str]) -> Any:
@@ -42,9 +56,12 @@ def texts(name: str, values: Iterable[str]) -> Any:
     return made
 
 
-def _set_ranges(made: Any, ranges: list[float]) -> None:
-    """Tells an array the ranges of its components, and of several also the range of their lengths, as VTK would find them."""
+def _tell_ranges(made: Any, known: c.CArray) -> None:
+    """Tells an array the ranges of its components, if they are known, and of several also the range of their lengths, as VTK would find them."""
     count = made.GetNumberOfComponents()
+    if not known.range or known.components != count:
+        return
+    ranges = known.range[:2 * count + (2 if count > 1 else 0)]
     information = made.GetInformation()
     for key in (made.PER_COMPONENT(), made.PER_FINITE_COMPONENT()):
         vector = core.vtkInformationVector()
@@ -82,9 +99,7 @@ class Table:
             made.append((c.text(array.name), self._array(array)))
         self.has_lines = bool(made) and made[0][0] == "ends"
         if made and made[0][0] in ("ends", "points"):
-            positions = made.pop(0)[1]
-            if positions.GetNumberOfTuples():
-                self.points.SetData(positions)
+            made.pop(0)
         if self.has_lines:
             own = [made.pop(0) for _ in range(3 if split else 1)]
             self.drawn = dict(own[1:] + own[:1])
@@ -96,7 +111,7 @@ class Table:
         if array.type == c.TEXT:
             return texts(name, values)
         if name in ("ends", "points"):
-            made = numbers("Points", values.reshape(-1, 3))
+            made = self._place(values.reshape(-1, 3), array)
         else:
             made = numbers(name, values)
             made.SetNumberOfComponents(array.components)
@@ -105,8 +120,18 @@ class Table:
         if len(columns) > 1 and (len(columns) != 3 or "[" in columns[0]):
             for i, column in enumerate(columns):
                 made.SetComponentName(i, column)
-        if array.range:
-            _set_ranges(made, array.range[:2 * array.components + (2 if array.components > 1 else 0)])
+        _tell_ranges(made, array)
+        return made
+
+    def _place(self, values: Any, array: c.CArray) -> Any:
+        """Makes the values the points. VTK finds the bounds of two points that have them, and keeps them for those that come instead."""
+        known = array.range and array.components == 3
+        made = numbers("Points", numpy.array(array.range[:6], dtype=values.dtype).reshape(3, 2).T if known else values)
+        if len(values):
+            self.points.SetData(made)  # which forgets the ranges
+        if known:
+            self.points.ComputeBounds()
+            _fill(made, values)
         return made
 
     def add_no_lines(self, split: bool) -> None:

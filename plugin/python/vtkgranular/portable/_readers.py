@@ -197,10 +197,18 @@ def _part(count: int, piece: dict[str, int]) -> tuple[int, int]:
 class _Particles(Reader):
     """Particles, perhaps bonds, and the box."""
 
+    _vertices: Any = None, None  # of the last frame: their number and form, and the cells
+
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         table = self.read(run, number, piece)
         particles, box = outputs[0], outputs[-1]
-        fill_particles(particles, table, self.values.get("Vertices", 2))
+        fill_particles(particles, table, 0)
+        rows, form = particles.GetNumberOfPoints(), self.values.get("Vertices", 2)
+        if rows and form:
+            shape = (rows, 1) if form == 2 else (1, rows)
+            if self._vertices[0] != shape:  # most frames have as many particles as the one before
+                self._vertices = shape, cells(*shape)
+            particles.SetVerts(self._vertices[1])
         table.add_header(particles.GetFieldData())
         table.add_columns(particles.GetFieldData())
         self.fill_box(run, number, piece, table, box)
