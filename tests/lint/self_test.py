@@ -12,6 +12,7 @@ import layering
 import links
 import messages
 import options
+import portable
 import reader_options
 import reference
 import server_manager
@@ -472,6 +473,18 @@ class vtkGranularA : public vtkPolyDataAlgorithm
         self.assertEqual(self.check(**shared), ["xml/b.xml:4"])
         looks = self.HEADER.replace("};", "  static int CanReadFile(const char* name);\n};")
         self.assertEqual(found(server_manager.check, plugin__vtk__vtkGranularA_dot_h=looks, **shared), [])
+
+
+class Portable(unittest.TestCase):
+    def test_what_it_lacks_is_named_in_the_list_and_in_the_guide(self):
+        xml = ('<ServerManagerConfiguration><ProxyGroup name="filters">\n<SourceProxy name="A">\n'
+               '<IntVectorProperty name="Known" command="SetKnown"/>\n<IntVectorProperty name="New" command="SetNew"/>\n'
+               '<IntVectorProperty name="Said"/></SourceProxy>\n<SourceProxy name="B"/></ProxyGroup></ServerManagerConfiguration>')
+        self.assertEqual(found(portable.check, **{
+            "xml/a.xml": xml, portable.OPTIONS: tree.read(Options.ROOT, portable.OPTIONS), portable.GUIDE: "`Said` is missing.",
+            portable.LIST: 'PROPERTIES = (\n"Said",\n"Known", "Gone")\nPROXIES = ("Unsaid",)\n',
+            portable.FOLDER + "a.py": "class A(Filter):\n    x = \"Known\"\n"}), [
+                portable.LIST + ":3", portable.LIST + ":4", "xml/a.xml:4", "xml/a.xml:6"])
 
 
 class Options(unittest.TestCase):

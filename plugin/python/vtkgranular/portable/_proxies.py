@@ -7,10 +7,10 @@ import os
 from typing import Any
 from xml.etree import ElementTree
 
+from ._missing import PROPERTIES
+
 MODULE = __package__
 
-#: Properties that need a compiled class, and are not there.
-_MISSING = {"RefreshOnUpdate", "CheckOverlap", "CheckGaps"}
 _BASES = ("internal_sources", "internal_filters", "internal_writers")
 _TAGS = {"GranularLocalReaderProxy": "SourceProxy", "GranularParticleReaderProxy": "SourceProxy", "PWriterProxy": "WriterProxy"}
 
@@ -140,7 +140,7 @@ def define(classes: dict[str, type]) -> Any:
             if group.get("name") not in _BASES and own is None:
                 group.remove(proxy)
                 continue
-            for element in [element for element in proxy if element.get("name") in _MISSING]:
+            for element in [element for element in proxy if element.get("name") in PROPERTIES]:
                 proxy.remove(element)
             if proxy.tag == "PWriterProxy":
                 proxy.set("supports_parallel", "1")

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What only the compiled plugin has, by the names in xml. docs/guide/portable.md says what to do instead; tests/lint/portable.py compares
+all three."""
+
+#: Sources, filters and extractors.
+PROXIES = ("GranularCompare", "GranularContactSums", "GranularDump",
+           "GranularEulerAverage", "GranularHistory", "GranularPointAverage",
+           "GranularTrajectories")
+
+#: Properties that are not there.
+PROPERTIES = ("RefreshOnUpdate", "CheckOverlap", "CheckGaps")
+
+#: Properties that are there for scripts and state files, and change nothing.
+IDLE = ("ParallelMode",)
