@@ -9,6 +9,7 @@ import tree
 
 FOLDER = "plugin/python/vtkgranular/portable/"
 LIST, GUIDE, OPTIONS = FOLDER + "_missing.py", "docs/guide/portable.md", "core/granular/runs/options.toml"
+SETTINGS = "core/c/filter_"  # which take the properties of filters by their names
 GROUPS = ("sources", "filters", "writers", "extract_writers")
 
 
@@ -27,7 +28,8 @@ def is_known(prop, code, options):
 
 def check(root):
     listed, used = missing(root), set()
-    code = "".join(tree.read(root, path) for path in tree.files(root) if path.startswith(FOLDER) and path != LIST)
+    code = "".join(tree.read(root, path) for path in tree.files(root)
+                   if path != LIST and path.startswith((FOLDER, SETTINGS)))
     options = set(re.findall(r'^property = "(\w+)"', tree.read(root, OPTIONS), re.MULTILINE))
     lacks = []
     for proxy in [proxy for group, proxy in server_manager.proxies(root)[0] if group in GROUPS]:
