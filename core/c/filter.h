@@ -8,7 +8,10 @@
 #include "granular_filters.h"
 
 #include "granular/common/error.h"
+#include "granular/common/made_arrays.h"
 #include "granular/common/progress.h"
+#include "granular/contacts/contact_input.h"
+#include "granular/lines/line_rows.h"
 #include "granular/memory/block.h"
 #include "granular/parallel/communicator.h"
 
@@ -51,6 +54,7 @@ public:
   }
 
   std::vector<double> list(const char* name); ///< of any length
+  granular::ArrayChoice arrays(std::span<const granular::MadeArray> known); ///< that are to be made
 
   /// Throws ArgumentError for a setting that no function asked for.
   void expect_known(const std::string& filter) const;
@@ -68,6 +72,8 @@ struct FilterInput
 {
   /// Throws ArgumentError for arrays that cannot be: see granular_content.
   explicit FilterInput(const granular_content& content);
+
+  std::vector<double> absolute_ends() const; ///< six numbers a row, or none
 
   WriteView rows;            ///< with points, or the ends of lines
   granular::FrameView& view; ///< of these
@@ -108,6 +114,22 @@ private:
   granular::SerialCommunicator alone_;
 };
 
+/// The contacts of a task: those between particles at input 1, and those with walls at input 2, either of which may be missing.
+class TaskContacts
+{
+public:
+  /// Collective.
+  explicit TaskContacts(FilterTask& task, std::size_t frame = 0);
+
+  const granular::ContactSources& sources() const { return sources_; }
+  bool are_lines() const { return inputs_[0] != nullptr && inputs_[0]->are_lines; }
+
+private:
+  std::array<std::unique_ptr<FilterInput>, 2> inputs_;
+  std::array<std::optional<granular::LineRows>, 2> rows_;
+  granular::ContactSources sources_;
+};
+
 using Frames = std::vector<std::unique_ptr<granular_frame>>;
 
 /// Makes a frame of a table that was made, whose rows are particles or lines.
@@ -123,5 +145,6 @@ Frames apply_packing(FilterTask& task);
 Frames apply_local_join(FilterTask& task);
 Frames apply_decomposition_source(FilterTask& task);
 Frames apply_decomposition(FilterTask& task);
+Frames apply_contact_sums(FilterTask& task);
 }
 #endif

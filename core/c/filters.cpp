@@ -6,10 +6,13 @@
 #include "run.h"
 
 #include "granular/common/words.h"
+#include "granular/contacts/chosen_sums.h"
 #include "granular/lines/line_columns.h"
 #include "granular/numbers/number_print.h"
 #include "granular/parallel/executor.h"
 #include "granular/parallel/pieces.h"
+#include "granular/particles/absolute_positions.h"
+#include "granular/particles/known_arrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +28,7 @@ struct Filter
 {
   const char* name;
   Frames (*apply)(FilterTask& task);
+  std::span<const MadeArray> arrays = {}; ///< to choose from
 };
 
 constexpr Filter filters[] = {
@@ -32,6 +36,7 @@ constexpr Filter filters[] = {
   { "GranularLocalJoin", apply_local_join },
   { "GranularDecompositionSource", apply_decomposition_source },
   { "GranularDecomposition", apply_decomposition },
+  { "GranularContactSums", apply_contact_sums, contact_sum_arrays },
 };
 
 const Filter& find_filter(const std::string& name)
@@ -150,6 +155,18 @@ std::vector<double> Settings::list(const char* name)
                           : std::vector<double>(found->numbers, found->numbers + found->count);
 }
 
+ArrayChoice Settings::arrays(std::span<const MadeArray> known)
+{
+  std::string usual;
+  std::vector<std::string> all;
+  for (const MadeArray& array : known)
+  {
+    all.emplace_back(array.name);
+    usual += array.on ? all.back() + ' ' : std::string();
+  }
+  return { known, names_in(this->text("Arrays", usual.c_str()), all) };
+}
+
 void Settings::expect_known(const std::string& filter) const
 {
   for (const granular_setting& each : given_)
@@ -183,6 +200,22 @@ FilterInput::FilterInput(const granular_content& content)
     view.ghosts = static_cast<const unsigned char*>(ghosts->components[0]);
     view.arrays.erase(ghosts);
   }
+}
+
+std::vector<double> FilterInput::absolute_ends() const
+{
+  if (!rows.ends)
+  {
+    return {};
+  }
+  FrameView points;
+  points.header = view.header;
+  points.has_box = view.has_box;
+  points.coordinates = view.coordinates;
+  points.point_origin = view.point_origin;
+  points.rows = 2 * view.rows;
+  points.points = view_rows(points_name, ValueType::Float64, rows.ends->components[0], 3);
+  return absolute_points(points);
 }
 
 FilterTask::FilterTask(const granular_task& given, Communicator& all, Progress& caller)
@@ -249,6 +282,19 @@ std::pair<std::int64_t, std::int64_t> FilterTask::range_of(std::int64_t count) c
   return together ? std::pair(std::int64_t{ 0 }, count) : range_of_piece(count, piece, pieces);
 }
 
+TaskContacts::TaskContacts(FilterTask& task, std::size_t frame)
+{
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    inputs_[i] = task.input(i + 1, frame);
+    if (const FilterInput* const input = inputs_[i].get())
+    {
+      rows_[i].emplace(input->view, input->are_lines);
+      sources_[i] = { &*rows_[i], [input] { return input->absolute_ends(); }, input->timestep };
+    }
+  }
+}
+
 // ---- results -------------------------------------------------------------------------------------
 std::unique_ptr<granular_frame> make_frame(RowKind kind, Table&& table, bool split)
 {
@@ -275,6 +321,20 @@ using namespace granular_c;
 
 extern "C"
 {
+  const char* granular_made_array(const char* filter, size_t number, int* on)
+  {
+    const auto* const found = std::ranges::find(filters, text_of(filter), &Filter::name);
+    if (found == std::end(filters) || number >= found->arrays.size())
+    {
+      return nullptr;
+    }
+    if (on != nullptr)
+    {
+      *on = found->arrays[number].on ? 1 : 0;
+    }
+    return found->arrays[number].name;
+  }
+
   void granular_task_init(granular_task* task)
   {
     if (task != nullptr)

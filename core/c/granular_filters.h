@@ -34,6 +34,9 @@ extern "C"
  * GranularDecompositionSource  no input; results: subdomains with lo, hi, nlocal, proc
  * GranularDecomposition  inputs: particles; for the mode 2, subdomains with lo, hi and, if known, proc. Results: subdomains as above, in
  *                        the coordinates of the points; facts in one row: "imbalance", "outside"
+ * GranularContactSums    inputs: particles; contacts between them, and contacts with walls, as rows or lines: one of these at least. Results:
+ *                        rows with the sums and "input_row", the row of the particles that each is of; facts in one row; if
+ *                        mobilised_friction is made, rows with it and "input_cell", the row of the contacts
  */
 
 /* A property by its name: a text, or numbers, such as that of a choice. Those that are not given have their defaults. */
@@ -76,6 +79,10 @@ typedef struct granular_task
   granular_progress progress;  /* may be null */
   granular_notice notice; void* user; /* notice may be null: of ranks that work together the first one is told; user is for all functions */
 } granular_task;
+
+/* Returns an array that a filter can make, which the text of its setting "Arrays" can name beside others; its number is counted from 0, and
+ * null is returned from the last one on. *on: 1 if it is made where nothing is set. */
+GRANULAR_API const char* granular_made_array(const char* filter, size_t number, int* on);
 
 GRANULAR_API void granular_task_init(granular_task* task);
 

@@ -81,7 +81,7 @@ ROOMS = {room: words.split() for room, words in (
              "formats/local formats/data_file formats/restart formats/euler formats/decomposition formats/grid_dump"),
     ("subdomains", "common numbers memory geometry parallel frames particles grid"),
     ("packing", "common memory geometry parallel particles"),
-    ("contacts", "common memory geometry parallel frames particles sorting grid lines"),
+    ("contacts", "common numbers memory geometry parallel frames particles sorting grid lines"),
     ("averages", "common numbers memory geometry parallel frames particles sorting lines grid contacts"),
     ("paths", "common columns numbers memory geometry parallel frames particles sorting lines formats/dump/read"),
 )}

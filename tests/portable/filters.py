@@ -54,12 +54,34 @@ def split():
     return simple.GranularLocalJoin(Input=chain(), Lines=bonds(), PeriodicLines="Split", EquilibriumLength=1)
 
 
+#: The columns of contacts between particles, and with walls.
+COLUMNS = {"periodic_bed_contacts": "pos id force delta contactPoint", "periodic_bed_walls": "pos wall_id force delta",
+           "moving_contacts": "pos vel id force delta", "moving_walls": "pos vel wall_id force delta",
+           "bed_contacts": "pos id force force_normal force_tangential torque delta contactPoint"}
+
+
+def bed(name="periodic_bed", **properties):
+    return reader("GranularDumpReader", f"contacts/{name}.dump.gz", **properties)
+
+
+def contacts(name="periodic_bed_contacts", **properties):
+    file = f"contacts/{name}.dump"
+    return reader("GranularLocalReader", file if os.path.exists(os.path.join(GOOD, file)) else file + ".gz", ColumnMap=COLUMNS[name], **properties)
+
+
+def walls(name="periodic_bed_walls", **properties):
+    return contacts(name, **properties)
+
+
 LOSE_BOX = """output.ShallowCopy(given)
 for name in ("BoxOrigin", "BoxVectors", "BoxBounds", "Boundary"):
     output.GetFieldData().RemoveArray(name)"""
 SHORT = """output.ShallowCopy(given)
 if rank == ranks - 1:
     output.GetPointData().GetArray("v").SetNumberOfTuples(3)"""
+
+ALL_SUMS = ["coordination", "contact_force", "contact_torque", "fabric", "contact_stress", "principal_stress", "von_mises", "rattler",
+            "coordination_without_rattlers", "mobilised_friction"]
 
 #: The rows: the filter or source, its properties, and its inputs by their properties.
 FILTERS = [
@@ -92,6 +114,19 @@ FILTERS = [
     ("GranularDecomposition", {"Mode": "ProcessArray", "ProcessArray": "type", "NumberOfProcesses": 7}, {"Input": grains}),
     ("GranularDecomposition", {"Mode": "Ranks"}, {"Input": grains}),
     ("GranularDecomposition", {"Bounds": [float("nan"), 1, 0, 1, 0, 1]}, {"Input": grains}),
+    ("GranularContactSums", {}, {"Input": bed, "Lines": contacts, "Walls": walls}),
+    ("GranularContactSums", {"Arrays": ALL_SUMS, "LeverArm": "HalfBranch", "MinimumForce": 0.001, "FrictionCoefficient": 0.5},
+     {"Input": lambda: bed("moving"), "Lines": lambda: contacts("moving_contacts"), "Walls": lambda: walls("moving_walls")}),
+    ("GranularContactSums", {"Arrays": ["fabric", "mobilised_friction", "missing"], "MinimumOverlap": 1e-5, "RattlerContacts": 4},
+     {"Input": lambda: bed(Stride=3), "Lines": lambda: contacts(PeriodicLines="Split")}),
+    ("GranularContactSums", {"Arrays": ["rattler", "von_mises", "mobilised_friction"]},
+     {"Input": lambda: bed(Coordinates="Scaled"), "Lines": lambda: contacts(port=1), "Walls": walls}),
+    ("GranularContactSums", {"Arrays": ALL_SUMS}, {"Input": lambda: bed("bed"), "Lines": lambda: contacts("bed_contacts")}),
+    ("GranularContactSums", {}, {"Input": bed}),
+    ("GranularContactSums", {"FrictionCoefficient": 0}, {"Input": bed, "Lines": contacts}),
+    ("GranularContactSums", {}, {"Input": bed, "Walls": contacts}),
+    ("GranularContactSums", {}, {"Input": bed, "Lines": bed}),
+    ("GranularContactSums", {}, {"Input": chain, "Lines": bonds}),
 ]
 
 

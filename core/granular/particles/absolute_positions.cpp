@@ -192,4 +192,15 @@ void AbsolutePositions::convert(std::span<const std::int64_t> rows, double* buff
   }
   convert_positions(plan_, box_, less_, images, { buffer, 3 * count });
 }
+
+std::vector<double> absolute_points(FrameView points)
+{
+  if (points.coordinates == Coordinates::Unwrapped)
+  {
+    points.coordinates = Coordinates::Absolute;
+  }
+  std::vector<double> made(static_cast<std::size_t>(3 * points.rows));
+  AbsolutePositions(points, false).store(0, static_cast<std::size_t>(points.rows), made.data());
+  return made;
+}
 }

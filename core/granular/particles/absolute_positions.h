@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace granular
 {
@@ -108,5 +109,9 @@ private:
   bool crosses_ = false; ///< unwrapped points without counts: these are found
   std::array<std::optional<PeriodicAxis>, 3> wraps_; ///< axes
 };
+
+/// Returns the positions of points that are not particles, such as corners of cells: x y z of each. A subtracted origin is added, and
+/// scaled points are multiplied by the box. Unwrapped points are unchanged: particles are unwrapped, cells are not.
+std::vector<double> absolute_points(FrameView points);
 }
 #endif

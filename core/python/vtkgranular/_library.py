@@ -206,6 +206,7 @@ _OTHERS = {  # without a status: result and arguments
     "granular_format_init": (None, POINTER(Format)),
     "granular_content_init": (None, POINTER(Content)),
     "granular_task_init": (None, POINTER(Task)),
+    "granular_made_array": (c_char_p, c_char_p, c_size_t, POINTER(c_int)),
     "granular_close": (None, c_void_p),
     "granular_release": (None, c_void_p),
     "granular_abandon": (None, c_void_p),

@@ -2,6 +2,7 @@
 """Readers, writers, sources and filters for any ParaView, in Python over the C library: what plugin/portable/Granular.py shows to ParaView."""
 from __future__ import annotations
 
+from ._averages import AVERAGES
 from ._lines import LINES
 from ._proxies import define
 from ._readers import READERS
@@ -9,6 +10,6 @@ from ._sources import SOURCES
 from ._subdomains import SUBDOMAINS
 from ._writers import WRITERS
 
-_classes = {**READERS, **WRITERS, **SOURCES, **LINES, **SUBDOMAINS}
+_classes = {**READERS, **WRITERS, **SOURCES, **LINES, **AVERAGES, **SUBDOMAINS}
 definitions = define(_classes)
 globals().update({made.__name__: made for made in _classes.values()})  # where the definitions say they are

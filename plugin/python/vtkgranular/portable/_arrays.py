@@ -116,8 +116,8 @@ class Table:
             made = numbers(name, values)
             made.SetNumberOfComponents(array.components)
         columns = c.text(array.columns).split()
-        # components of three are axes, and shown as X, Y and Z anyway; others keep the names of the file
-        if len(columns) > 1 and (len(columns) != 3 or "[" in columns[0]):
+        # components of three are axes, and shown as X, Y and Z anyway; others, and those of tensors, keep their names
+        if len(columns) > 1 and (len(columns) != 3 or "[" in columns[0] or columns[0] in ("XX", "XY")):
             for i, column in enumerate(columns):
                 made.SetComponentName(i, column)
         _tell_ranges(made, array)
@@ -222,6 +222,18 @@ def pass_rows(attributes: Any, count: int, rows: Any, to: Any) -> None:
         array = attributes.GetAbstractArray(i)
         if array.GetName() and array.GetName() != vtkDataSetAttributes.GhostArrayName():
             to.AddArray(array if all_rows else take_tuples(array, rows))
+
+
+def pass_piece(given: Any, first: int, last: int, to: Any) -> None:
+    """Adds a part of the points of a data set, with all their arrays."""
+    rows = numpy.arange(first, last)
+    if given.GetPoints():
+        points = core.vtkPoints()
+        points.SetData(take_tuples(given.GetPoints().GetData(), rows))
+        to.SetPoints(points)
+    to.SetVerts(cells(last - first, 1))
+    for i in range(given.GetPointData().GetNumberOfArrays()):
+        to.GetPointData().AddArray(take_tuples(given.GetPointData().GetAbstractArray(i), rows))
 
 
 def cells(count: int, size: int) -> vtkCellArray:

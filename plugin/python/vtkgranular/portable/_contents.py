@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDataArray
-from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_VOXEL, vtkDataSetAttributes
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_LINE, VTK_POLY_LINE, VTK_VOXEL, vtkCellArray, vtkDataSetAttributes
 
 from .. import _library as c
 from .._write import _c_arrays
+from ._arrays import numbers
 
 _COORDINATES = ("Absolute", "Unwrapped", "Scaled")
 DUPLICATE = 1  # of vtkGhostType
@@ -226,8 +227,8 @@ def lines(data: Any, places: bool = True) -> Content:
     """Takes cells as lines, or the rows of a table. places: False if only the arrays matter, and not where the ends are."""
     attributes, count = attributes_of(data)
     rows = Rows(data)
-    if data.IsA("vtkDataSet"):
-        rows.arrays["ends"] = _ends(data, count) if places else numpy.empty((count, 6))
+    if data.IsA("vtkPointSet" if places else "vtkDataSet"):
+        rows.arrays["ends"] = _ends(data, count) if places and attributes.HasArray("id2") else numpy.empty((count, 6))
     rows.see_all(attributes, count, "rows")
     return _content(rows, count)
 
@@ -237,22 +238,47 @@ def rows_only(data: Any) -> Content:
     return lines(data, False)
 
 
-def _ends(data: Any, count: int) -> Any:
-    """Returns the first and the last point of each cell; nan for cells that have none of their own."""
-    made = numpy.full((count, 6), numpy.nan)
+def _points_of_cells(data: Any) -> tuple[Any, Any]:
+    """Returns the ids of the points of all cells, and where those of each begin, with the end of the last. Raises Error unless all cells
+    are lines."""
     names = ("GetVerts", "GetLines", "GetPolys", "GetStrips") if data.IsA("vtkPolyData") else ("GetCells",)
-    of_cells = [cells for cells in (getattr(data, name, lambda: None)() for name in names) if cells and cells.GetNumberOfCells()]
-    if not of_cells or sum(cells.GetNumberOfCells() for cells in of_cells) != count:
-        return made
-    points, begin = values_of(data.GetPoints().GetData()).astype(float, copy=False), 0
-    for cells in of_cells:
-        offsets, ids = vtk_to_numpy(cells.GetOffsetsArray()), vtk_to_numpy(cells.GetConnectivityArray())
-        first, last = ids[offsets[:-1]], ids[offsets[1:] - 1]
-        if len(first) == count and len(points) == 2 * count and (first == numpy.arange(0, 2 * count, 2)).all() and (last == first + 1).all():
-            return points.reshape(-1, 6)  # in place
-        made[begin:begin + len(first), :3], made[begin:begin + len(first), 3:] = points[first], points[last]
-        begin += len(first)
-    return made
+    kinds = [cells for cells in (getattr(data, name, lambda: None)() for name in names) if cells and cells.GetNumberOfCells()]
+    for row in range(data.GetNumberOfCells() if len(kinds) > 1 or (kinds and not data.IsA("vtkPolyData")) or
+                     (kinds and kinds[0] is not data.GetLines()) else 0):
+        if data.GetCellType(row) not in (VTK_LINE, VTK_POLY_LINE):
+            raise c.Error(f"expected lines as cells, got a cell of the VTK type {data.GetCellType(row)} in row {row} (the first is 0)")
+    ids = [vtk_to_numpy(cells.GetConnectivityArray()) for cells in kinds]
+    sizes = [numpy.diff(vtk_to_numpy(cells.GetOffsetsArray())) for cells in kinds]
+    begins = numpy.cumsum(numpy.concatenate([[0], *sizes]), dtype=numpy.int64)
+    return numpy.concatenate(ids) if ids else numpy.empty(0, dtype=numpy.int64), begins
+
+
+def _ends(data: Any, count: int) -> Any:
+    """Returns the first and the last point of each cell."""
+    ids, begins = _points_of_cells(data)
+    if len(begins) != count + 1 or not count:
+        return numpy.empty((count, 6))
+    points, first, last = values_of(data.GetPoints().GetData()).astype(float, copy=False), ids[begins[:-1]], ids[begins[1:] - 1]
+    if len(points) == 2 * count and (first == numpy.arange(0, 2 * count, 2)).all() and (last == first + 1).all():
+        return points.reshape(-1, 6)  # in place
+    return numpy.concatenate([points[first], points[last]], axis=1)
+
+
+def add_lines(data: Any, rows: Any, to: Any) -> None:
+    """Adds some cells of a data set to one without any, each with points of its own, which are doubles."""
+    ids, begins = _points_of_cells(data)
+    sizes = numpy.diff(begins)[rows]
+    offsets = numpy.cumsum(numpy.concatenate([[0], sizes]), dtype=numpy.int64)
+    of_points = numpy.repeat(begins[:-1][rows] - offsets[:-1], sizes) + numpy.arange(offsets[-1])
+    points, made = vtkPoints(), vtkCellArray()
+    points.SetDataTypeToDouble()
+    points.SetNumberOfPoints(len(of_points))
+    if len(of_points):
+        vtk_to_numpy(points.GetData())[:] = values_of(data.GetPoints().GetData()).reshape(-1, 3)[ids[of_points]]
+    if len(rows):
+        made.SetData(numbers(None, offsets), numbers(None, numpy.arange(offsets[-1])))
+    to.SetPoints(points)
+    to.SetLines(made)
 
 
 def voxels(data: Any) -> Content:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Callable
 
+from vtkmodules.vtkCommonCore import vtkDataArraySelection
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
@@ -13,7 +14,7 @@ from .._run import _Handle
 from ._algorithm import Algorithm, asked_output, piece_of
 from ._arrays import Table
 from ._contents import Content
-from ._ranks import ranks_of_paraview
+from ._ranks import is_own_piece, ranks_of_paraview
 
 
 class Filter(Algorithm):
@@ -28,6 +29,14 @@ class Filter(Algorithm):
 
     def __init__(self) -> None:
         super().__init__(len(self.inputs))
+        self._selection = vtkDataArraySelection()
+        on = c.c_int()
+        while name := c.library().granular_made_array(type(self).__name__.encode(), self._selection.GetNumberOfArrays(), c.byref(on)):
+            self._selection.AddArray(c.text(name), bool(on.value))
+        self._selection.AddObserver("ModifiedEvent", lambda *_: self.Modified())
+
+    def GetArraySelection(self) -> vtkDataArraySelection:
+        return self._selection
 
     # ---- the pipeline ----
     def FillInputPortInformation(self, port: int, info: Any) -> int:
@@ -53,8 +62,7 @@ class Filter(Algorithm):
     @staticmethod
     def piece_of_inputs(piece: tuple[int, int]) -> tuple[int, int]:
         """Returns the piece of the inputs that a rank needs: its own, or the whole to make another piece from."""
-        ranks = ranks_of_paraview()
-        return piece if piece == ((ranks.Get_rank(), ranks.Get_size()) if ranks else (0, 1)) else (0, 1)
+        return piece if is_own_piece(piece) else (0, 1)
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:
         def work() -> None:
@@ -70,7 +78,10 @@ class Filter(Algorithm):
     # ---- the work ----
     def settings(self) -> dict[str, Any]:
         """Returns the properties that the library gets: numbers, several numbers, or texts."""
-        return {name: value for name, value in self.values.items() if name != "Threads"}
+        made, chosen = {name: value for name, value in self.values.items() if name != "Threads"}, self._selection
+        if chosen.GetNumberOfArrays():
+            made["Arrays"] = " ".join(chosen.GetArrayName(i) for i in range(chosen.GetNumberOfArrays()) if chosen.GetArraySetting(i))
+        return made
 
     def take(self, port: int, frame: int) -> Content | None:
         """Returns an input as the library takes it, or None where nothing is connected. All ranks are asked in the same order."""

@@ -3,7 +3,7 @@
 all three."""
 
 #: Sources, filters and extractors.
-PROXIES = ("GranularCompare", "GranularContactSums", "GranularDump", "GranularEulerAverage", "GranularHistory", "GranularPointAverage",
+PROXIES = ("GranularCompare", "GranularDump", "GranularEulerAverage", "GranularHistory", "GranularPointAverage",
            "GranularTrajectories")
 
 #: Properties that are not there.

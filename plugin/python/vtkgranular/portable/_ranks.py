@@ -59,6 +59,12 @@ def no_garbage_collected() -> Iterator[None]:
             gc.enable()
 
 
+def is_own_piece(piece: tuple[int, int]) -> bool:
+    """Returns true if a rank asks for the part that it has of what all have."""
+    ranks = ranks_of_paraview()
+    return piece == ((ranks.Get_rank(), ranks.Get_size()) if ranks else (0, 1))
+
+
 def is_first() -> bool:
     """Returns true on the first rank, or where there is one."""
     controller = vtkMultiProcessController.GetGlobalController()
