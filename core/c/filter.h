@@ -146,5 +146,7 @@ Frames apply_local_join(FilterTask& task);
 Frames apply_decomposition_source(FilterTask& task);
 Frames apply_decomposition(FilterTask& task);
 Frames apply_contact_sums(FilterTask& task);
+Frames apply_point_average(FilterTask& task);
+Frames apply_euler_average(FilterTask& task);
 }
 #endif

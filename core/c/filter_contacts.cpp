@@ -23,14 +23,15 @@ Block part_of(Block&& values, std::int64_t rows, Range range)
   }
   const std::size_t row = values.bytes() / static_cast<std::size_t>(rows);
   Block part(static_cast<std::size_t>(range.second - range.first) * row);
-  const auto* const from = static_cast<const char*>(values.data()) +
-    static_cast<std::size_t>(range.first) * row;
+  const auto* const from =
+    static_cast<const char*>(values.data()) + static_cast<std::size_t>(range.first) * row;
   std::copy_n(from, part.bytes(), static_cast<char*>(part.data()));
   return part;
 }
 
 /// The sums of some particles, a row for each.
-std::unique_ptr<granular_frame> frame_of(std::vector<SummedArray>& sums, std::int64_t rows, Range range)
+std::unique_ptr<granular_frame> frame_of(
+  std::vector<SummedArray>& sums, std::int64_t rows, Range range)
 {
   Table table;
   table.rows = range.second - range.first;

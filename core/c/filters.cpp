@@ -5,6 +5,7 @@
 #include "guard.h"
 #include "run.h"
 
+#include "granular/averages/chosen_averages.h"
 #include "granular/common/words.h"
 #include "granular/contacts/chosen_sums.h"
 #include "granular/lines/line_columns.h"
@@ -37,6 +38,8 @@ constexpr Filter filters[] = {
   { "GranularDecompositionSource", apply_decomposition_source },
   { "GranularDecomposition", apply_decomposition },
   { "GranularContactSums", apply_contact_sums, contact_sum_arrays },
+  { "GranularPointAverage", apply_point_average, average_arrays },
+  { "GranularEulerAverage", apply_euler_average, average_arrays },
 };
 
 const Filter& find_filter(const std::string& name)

@@ -37,6 +37,14 @@ extern "C"
  * GranularContactSums    inputs: particles; contacts between them, and contacts with walls, as rows or lines: one of these at least. Results:
  *                        rows with the sums and "input_row", the row of the particles that each is of; facts in one row; if
  *                        mobilised_friction is made, rows with it and "input_cell", the row of the contacts
+ * GranularPointAverage   inputs: particles; contacts, and contacts with walls, or none; points of any kind. Results: rows with the averages,
+ *                        one for each point
+ * GranularEulerAverage   inputs: particles; contacts, and contacts with walls, or none; of each frame if TimeAverage is set, which takes as
+ *                        many frames as the task has. Results: rows with "points", the centres of the cells (less the origin but for a profile), and the averages; facts in one
+ *                        row: "lo", "spacing" and "counts" of the grid. Settings besides those of ParaView: CellRange, six numbers: the
+ *                        wanted cells along x, y and z, from one index to that before the other; else each rank gets a part of all.
+ *                        GridOnly: 1: only the facts, which for an image do not depend on the particles, and no inputs
+ * LeftOut, a setting of both averages, is what a reader of the particles left out, for a warning.
  */
 
 /* A property by its name: a text, or numbers, such as that of a choice. Those that are not given have their defaults. */

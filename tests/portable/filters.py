@@ -73,6 +73,10 @@ def walls(name="periodic_bed_walls", **properties):
     return contacts(name, **properties)
 
 
+def plane():
+    return simple.Plane(Origin=[-0.015, 0.001, 0], Point1=[0.015, 0.001, 0], Point2=[-0.015, 0.001, 0.036], XResolution=4, YResolution=5)
+
+
 LOSE_BOX = """output.ShallowCopy(given)
 for name in ("BoxOrigin", "BoxVectors", "BoxBounds", "Boundary"):
     output.GetFieldData().RemoveArray(name)"""
@@ -82,6 +86,11 @@ if rank == ranks - 1:
 
 ALL_SUMS = ["coordination", "contact_force", "contact_torque", "fabric", "contact_stress", "principal_stress", "von_mises", "rattler",
             "coordination_without_rattlers", "mobilised_friction"]
+
+ALL_AVERAGES = ["v_avg", "volumefraction", "radius", "pressure", "sigma", "tau", "density", "momentum", "granular_temperature", "coordination",
+                "fabric", "sigma_kinetic", "tau_kinetic", "sigma_contact", "tau_contact"]
+BED = {"Input": bed, "Lines": contacts, "Walls": walls}
+MOVING = {"Input": lambda: bed("moving"), "Lines": lambda: contacts("moving_contacts"), "Walls": lambda: walls("moving_walls")}
 
 #: The rows: the filter or source, its properties, and its inputs by their properties.
 FILTERS = [
@@ -114,9 +123,8 @@ FILTERS = [
     ("GranularDecomposition", {"Mode": "ProcessArray", "ProcessArray": "type", "NumberOfProcesses": 7}, {"Input": grains}),
     ("GranularDecomposition", {"Mode": "Ranks"}, {"Input": grains}),
     ("GranularDecomposition", {"Bounds": [float("nan"), 1, 0, 1, 0, 1]}, {"Input": grains}),
-    ("GranularContactSums", {}, {"Input": bed, "Lines": contacts, "Walls": walls}),
-    ("GranularContactSums", {"Arrays": ALL_SUMS, "LeverArm": "HalfBranch", "MinimumForce": 0.001, "FrictionCoefficient": 0.5},
-     {"Input": lambda: bed("moving"), "Lines": lambda: contacts("moving_contacts"), "Walls": lambda: walls("moving_walls")}),
+    ("GranularContactSums", {}, BED),
+    ("GranularContactSums", {"Arrays": ALL_SUMS, "LeverArm": "HalfBranch", "MinimumForce": 0.001, "FrictionCoefficient": 0.5}, MOVING),
     ("GranularContactSums", {"Arrays": ["fabric", "mobilised_friction", "missing"], "MinimumOverlap": 1e-5, "RattlerContacts": 4},
      {"Input": lambda: bed(Stride=3), "Lines": lambda: contacts(PeriodicLines="Split")}),
     ("GranularContactSums", {"Arrays": ["rattler", "von_mises", "mobilised_friction"]},
@@ -127,6 +135,24 @@ FILTERS = [
     ("GranularContactSums", {}, {"Input": bed, "Walls": contacts}),
     ("GranularContactSums", {}, {"Input": bed, "Lines": bed}),
     ("GranularContactSums", {}, {"Input": chain, "Lines": bonds}),
+    ("GranularPointAverage", {"KernelWidth": 0.004, "Arrays": ALL_AVERAGES}, {**BED, "Points": plane}),
+    ("GranularPointAverage", {"Kernel": "Lucy"}, {"Input": lambda: bed("moving", PointOrigin=[0.01, 0, 0]), "Points": lambda: bed("moving")}),
+    ("GranularPointAverage", {"Kernel": "Heaviside", "KernelWidth": 0.005},
+     {"Input": lambda: bed(Stride=2), "Points": lambda: simple.GranularEulerAverage(Input=bed(), CellCounts=[2, 2, 3])}),
+    ("GranularPointAverage", {}, {"Input": lambda: bed(Coordinates="Scaled"), "Points": plane}),
+    ("GranularPointAverage", {"KernelWidth": -1, "Arrays": ["density", "missing"]}, {"Input": bed, "Points": plane}),
+    ("GranularEulerAverage", {"CellCounts": [3, 4, 5], "Arrays": ALL_AVERAGES}, BED),
+    ("GranularEulerAverage", {"Output": "Points", "CellsBy": "CellSizeRelative", "Weights": "Centre", "Periodic": "None"}, BED),
+    ("GranularEulerAverage", {"Output": "Profile", "ProfileAxis": "Y", "Weights": "Lucy", "KernelBounds": "Inside", "Arrays": ALL_AVERAGES}, BED),
+    ("GranularEulerAverage", {"Output": "Points", "TimeAverage": 1, "CellCounts": [2, 2, 3], "Arrays": ALL_AVERAGES}, MOVING),
+    ("GranularEulerAverage", {"TimeAverage": 1, "CellsBy": "CellSize", "CellSize": [0.009, 0.008, 0.02], "Bounds": [-0.01, 0.01, -0.01, 0.01, 0, 0.04]},
+     {"Input": lambda: bed("moving", PointOrigin=[0.01, 0, 0])}),
+    ("GranularEulerAverage", {"Output": "Profile", "CellCounts": [1, 1, 2]}, {"Input": lambda: bed(Coordinates="Scaled", Stride=2)}),
+    ("GranularEulerAverage", {"CellsBy": "CellSize"}, BED),
+    ("GranularEulerAverage", {"CellCounts": [3, 0, 5]}, BED),
+    ("GranularEulerAverage", {"CellCounts": [1, 1, 1], "StressArray": "v"}, {"Input": bed}),
+    ("GranularEulerAverage", {"CellCounts": [1, 1, 1], "StressArray": "c_s"}, BED),
+    ("GranularEulerAverage", {"Output": "Points", "CellCounts": [2, 2, 2]}, {"Input": lambda: changed(bed(), LOSE_BOX)}),
 ]
 
 

@@ -46,8 +46,7 @@ public:
     {
       known += std::string(known.empty() ? "" : ", ") + array.name;
     }
-    return unknown.empty() ? unknown
-                           : "there is no array" + unknown + ": Arrays may name " + known;
+    return unknown.empty() ? unknown : "there is no array" + unknown + ": Arrays may name " + known;
   }
 
 private:

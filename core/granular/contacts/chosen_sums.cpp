@@ -26,8 +26,7 @@ ContactArrays arrays_for(const ChosenSumsRequest& request)
   const bool arms = is_on("contact_torque") || is_on("contact_stress") ||
     is_on("principal_stress") || is_on("von_mises");
   ContactArrays wanted;
-  wanted.force =
-    arms || is_on("contact_force") || is_on(friction_array) || request.least_force > 0;
+  wanted.force = arms || is_on("contact_force") || is_on(friction_array) || request.least_force > 0;
   wanted.tangential = is_on(friction_array);
   wanted.torque = is_on("contact_torque");
   wanted.point = arms && !request.half_branch;
@@ -84,8 +83,7 @@ Seen look_at(const ContactSources& contacts, const ContactInputs& inputs, bool f
   return seen;
 }
 
-void tell(
-  const Seen& seen, const ContactSums& sums, const ArrayChoice& arrays, Notices& notices)
+void tell(const Seen& seen, const ContactSums& sums, const ArrayChoice& arrays, Notices& notices)
 {
   const auto tell = [&](bool holds, const char* topic, const std::string& text)
   {

@@ -65,7 +65,7 @@ inline constexpr const char* tensor_components[] = { "XX", "YY", "ZZ", "XY", "XZ
 struct ChosenSums
 {
   std::vector<SummedArray> arrays;
-  std::optional<std::vector<double>> friction; ///< of each contact between particles
+  std::optional<std::vector<double>> friction;       ///< of each contact between particles
   std::vector<std::pair<const char*, double>> means; ///< over all particles, by their names
 };
 

@@ -69,8 +69,7 @@ private:
 struct ContactInputs
 {
   /// Throws what ContactInput throws.
-  ContactInputs(
-    const ContactSources& sources, const ContactArrays& wanted, Progress& progress);
+  ContactInputs(const ContactSources& sources, const ContactArrays& wanted, Progress& progress);
 
   std::array<std::optional<ContactInput>, 2> each;
   std::vector<ContactRows> rows; ///< of those that are there

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace granular
 {
@@ -74,5 +75,29 @@ EulerCells gather_cells(const EulerCells& own, Communicator& ranks)
       std::ranges::for_each(arrays, bring);
       return all;
     });
+}
+
+EulerFrame make_euler_frame(EulerCells&& cells, EulerFields&& fields)
+{
+  EulerFrame frame;
+  frame.cells = cells.count();
+  frame.centres = std::move(cells.centres);
+  for (const EulerArray& array : arrays)
+  {
+    std::vector<double>& values = cells.*array.values;
+    if (!array.optional || !values.empty())
+    {
+      frame.arrays.push_back({ std::string(array.name), array.components, std::move(values) });
+    }
+  }
+  for (const EulerField& field : euler_fields)
+  {
+    std::vector<double>& values = fields.*field.values;
+    if (!values.empty())
+    {
+      frame.arrays.push_back({ std::string(field.name), field.components, std::move(values) });
+    }
+  }
+  return frame;
 }
 }

@@ -117,6 +117,26 @@ struct EulerFrame
   std::optional<FrameHeader> header; ///< where the file has one, with the box and the units
 };
 
+/// The components of an array of a tensor, as outputs name them.
+struct TensorArray
+{
+  std::string_view name;
+  std::string_view components; ///< separated by blanks
+};
+
+inline constexpr TensorArray tensor_arrays[] = {
+  { "sigma", "XX YY ZZ" },
+  { "tau", "XY XZ YZ" },
+  { "sigma_kinetic", "XX YY ZZ" },
+  { "tau_kinetic", "XY XZ YZ" },
+  { "sigma_contact", "XX YY ZZ" },
+  { "tau_contact", "XY XZ YZ" },
+  { "fabric", "XX YY ZZ XY XZ YZ" },
+};
+
+/// Returns cells with the names in files: v_avg, volumefraction, ..., and with more fields.
+EulerFrame make_euler_frame(EulerCells&& cells, EulerFields&& fields);
+
 /// The cells of all processes, with stresses where all processes that have cells have them, on rank 0; none on
 /// others. Collective.
 EulerCells gather_cells(const EulerCells& own, Communicator& ranks);

@@ -214,6 +214,19 @@ def particles(data: Any) -> Content:
     return _content(rows, count)
 
 
+def places(data: Any) -> Content:
+    """Takes the points of any data set, without arrays."""
+    if data is None or not data.IsA("vtkDataSet"):
+        raise _expected(data, "a vtkDataSet as Points")
+    rows, count = Rows(data), data.GetNumberOfPoints()
+    if data.IsA("vtkPointSet"):
+        points = values_of(data.GetPoints().GetData()) if data.GetPoints() else numpy.empty(0)
+    else:
+        points = numpy.array([data.GetPoint(i) for i in range(count)])
+    rows.arrays["points"] = points.reshape(-1, 3)
+    return _content(rows, count)
+
+
 def attributes_of(data: Any) -> tuple[Any, int]:
     """Returns the arrays of the cells of a data set, or of the rows of a table, and the number of these."""
     if data is not None and data.IsA("vtkDataSet"):

@@ -38,6 +38,12 @@ class Filter(Algorithm):
     def GetArraySelection(self) -> vtkDataArraySelection:
         return self._selection
 
+    def SetArrayStatus(self, name: str, status: Any) -> None:
+        self._selection.SetArraySetting(name, int(status))
+
+    def ClearArrays(self) -> None:
+        self._selection.DisableAllArrays()
+
     # ---- the pipeline ----
     def FillInputPortInformation(self, port: int, info: Any) -> int:
         info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject")  # of any type: all ranks look at them together

@@ -49,6 +49,11 @@ class InputFrames:
         """Asks for the shown time again if another one was asked for: whoever shares the input finds its data as they were."""
         if self._shown is not None:
             self.update(self._shown)
+        self.close()
+
+    def close(self) -> None:
+        """Makes the shown time the one that is asked for, without data."""
+        if self._shown is not None:
             self._info.Set(Pipeline.UPDATE_TIME_STEP(), self._shown)
             self._source.GetExecutive().PropagateUpdateExtent(self._port)
 

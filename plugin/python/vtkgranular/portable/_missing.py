@@ -3,7 +3,7 @@
 all three."""
 
 #: Sources, filters and extractors.
-PROXIES = ("GranularCompare", "GranularDump", "GranularEulerAverage", "GranularHistory", "GranularPointAverage",
+PROXIES = ("GranularCompare", "GranularDump", "GranularHistory", 
            "GranularTrajectories")
 
 #: Properties that are not there.
