@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The window with the portable plugin: load it, open a dump, which no question precedes, Apply, last frame; all particles are drawn at their
-places and with their radii. Then without one array, and saved as a dump: the words of the file but for that array."""
+"""The window with the portable plugin: load it, open a dump, which no question precedes, Apply, last frame; all particles are drawn at
+their places and with their radii. Then without one array, and saved as a dump: the words of the file but for that array."""
 import os
 import sys
 
@@ -57,7 +57,8 @@ with open("look.txt") as file:
 assert (reader, shown, offered) == ("GranularDumpReader", "Grains", OFFERED), (reader, shown, offered)
 
 column = dict(zip(names, numpy.array(rows, dtype=float).T))
-seen = Camera(position, focus, angle=angle).seen(numpy.stack([column[name] for name in "xyz"], axis=1), column["radius"], column["id"], PIXELS)
+centres = numpy.stack([column[name] for name in "xyz"], axis=1)
+seen = Camera(position, focus, angle=angle).seen(centres, column["radius"], column["id"], PIXELS)
 last = drawn(read("last"))
 assert (seen > 0).mean() > 0.1, "the truth itself shows little"
 # Point Gaussian draws discs before the camera, dark at their rims, which the background may be, too

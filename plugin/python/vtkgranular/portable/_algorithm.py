@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 
 from .. import _library as c
 from ._ranks import no_garbage_collected
-from ._told import Told
+from ._told import Told, message_of
 
 
 class Algorithm(VTKPythonAlgorithmBase):
@@ -58,7 +58,7 @@ class Algorithm(VTKPythonAlgorithmBase):
         except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
             if not self._message:
                 self.Modified()  # or VTK takes what is left of an image for the last one
-            self._message = str(error) or type(error).__name__
+            self._message = message_of(error) or type(error).__name__
         else:
             self._message = ""
             self._told.tell()

@@ -57,7 +57,7 @@ def texts(name: str, values: Iterable[str]) -> Any:
 
 
 def _tell_ranges(made: Any, known: c.CArray) -> None:
-    """Tells an array the ranges of its components, if they are known, and of several also the range of their lengths, as VTK would find them."""
+    """Tells an array the ranges of its components and, of several, that of their lengths, as VTK would find them, if they are known."""
     count = made.GetNumberOfComponents()
     if not known.range or known.components != count:
         return
@@ -97,8 +97,8 @@ class Table:
             array = c.CArray()
             library.granular_array_at(handle, number, c.byref(array))
             made.append((c.text(array.name), self._array(array)))
-        self.has_lines = bool(made) and made[0][0] == "ends"
-        if made and made[0][0] in ("ends", "points"):
+        self.has_lines, self.has_points = (bool(made) and made[0][0] == name for name in ("ends", "points"))
+        if self.has_lines or self.has_points:
             made.pop(0)
         if self.has_lines:
             own = [made.pop(0) for _ in range(3 if split else 1)]

@@ -201,6 +201,9 @@ class _Particles(Reader):
 
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         table = self.read(run, number, piece)
+        if not table.has_points:
+            raise c.Error(f"{c.shown(run._place_of(number)[1][1])}: expected columns of coordinates (x y z, xs ys zs, xu yu zu or xsu ysu zsu), "
+                          f"got '{' '.join(table.columns)}'")
         particles, box = outputs[0], outputs[-1]
         fill_particles(particles, table, 0)
         rows, form = particles.GetNumberOfPoints(), self.values.get("Vertices", 2)

@@ -2,12 +2,15 @@
 """Errors and warnings of a reader, each once."""
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from vtkmodules.vtkCommonCore import vtkOutputWindow
 
-from .._library import Remark
+from .._library import _SETTINGS, Remark
 
+#: ParaView's names of settings, by those of the package; a preset is a word, too.
+_NAMES = {own: name for name, own in _SETTINGS.items() if own != "preset"}
 _MOST = 10  # lines of one warning
 
 
@@ -18,6 +21,13 @@ def _pass_on(_: Any, __: str, text: str) -> None:
 
 
 _pass_on.CallDataType = "string0"  # type: ignore[attr-defined]
+
+
+def message_of(error: Exception | str) -> str:
+    """Returns the text of an error or a remark, with ParaView's names of settings."""
+    text, path = str(error), getattr(error, "path", "")
+    begin = len(path) if text.startswith(path) else 0
+    return text[:begin] + re.sub("|".join(rf"\b{own}(?!\w)" for own in _NAMES), lambda match: _NAMES[match.group()], text[begin:])
 
 
 class Told:
@@ -45,7 +55,7 @@ class Told:
 
     def warn(self, remark: Remark | str) -> None:
         """Takes a warning. The library tells each once a run; here it is once, though the run is opened again."""
-        text = str(remark)
+        text = message_of(remark)
         if text not in self._known:
             self._known.add(text)
             self._kept.append(text)

@@ -17,7 +17,7 @@ from .. import _library as c
 from ._contents import DUPLICATE, Content, Rows, box_of
 from ._ranks import gather, is_first, no_garbage_collected, share, together
 from ._readers import Reader
-from ._told import Told
+from ._told import Told, message_of
 
 
 def _is_whole(number: Any, most: int = 2**53) -> bool:
@@ -69,7 +69,7 @@ class Writer(VTKPythonAlgorithmBase):
         except c.Cancelled:
             pass
         except Exception as error:  # noqa: BLE001 (which ParaView would print and forget)
-            self._message = str(error) or type(error).__name__
+            self._message = message_of(error) or type(error).__name__
             self._told.error(self._message)
         self._told.tell()
         return self._written
