@@ -12,6 +12,7 @@ from window import PIXELS, Window, drawn, picture, read
 WINDOW = sys.argv[1]
 DUMP = os.path.join(os.environ["GRANULAR_DATA"], "good", "grains.dump")
 PLUGIN = os.path.join(os.path.dirname(vtkgranular.__file__), "portable", "Granular.py")
+FILES = "1pqFileDialog0" if GetParaViewVersion().version == (5, 13) else "pqFileDialog"
 ARRAYS = ("propertiesDock/propertiesPanel/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
           "PointArrayStatus/ArraySelectionWidget")
 OFFERED = ["id", "type", "image", "v", "f", "omega", "radius", "mass", "x", "y", "z"]  # of the columns of the file; the panel sorts them
@@ -40,7 +41,7 @@ names, rows = rows_of(DUMP)
 window = Window(WINDOW)
 window.event("menubar/menuTools", "activate", "actionManage_Plugins")
 window.event("PluginManagerDialog/splitter/localGroup/loadLocal", "activate")
-window.event("PluginManagerDialog/pqFileDialog", "filesSelected", PLUGIN)
+window.event(f"PluginManagerDialog/{FILES}", "filesSelected", PLUGIN)
 window.event("PluginManagerDialog/buttonBox/1QPushButton0", "activate")
 window.open(DUMP)
 window.apply()
