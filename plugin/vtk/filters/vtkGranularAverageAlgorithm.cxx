@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkGranularAverageAlgorithm.h"
 
+#include "private/arrays/made_arrays.h"
 #include "private/euler/average_task.h"
 #include "private/request/print.h"
 
@@ -8,7 +9,7 @@ using namespace vtkGranularPrivate;
 
 //------------------------------------------------------------------------------
 vtkGranularAverageAlgorithm::vtkGranularAverageAlgorithm()
-  : ArraySelection(MakeSelection(this, AverageArrays))
+  : ArraySelection(MakeSelection(this, granular::average_arrays))
 {
   this->SetPorts({ Input::Required, Input::Optional, Input::Optional }, { "vtkDataObject" });
 }

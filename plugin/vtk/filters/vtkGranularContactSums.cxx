@@ -8,8 +8,7 @@
 #include "private/request/print.h"
 #include "private/request/request_task.h"
 
-#include "granular/contacts/contact_sums.h"
-#include "granular/numbers/number_print.h"
+#include "granular/contacts/chosen_sums.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArraySelection.h"
@@ -25,12 +24,8 @@
 #include "vtkTypeInt32Array.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <array>
-#include <limits>
 #include <numeric>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -39,39 +34,30 @@ vtkStandardNewMacro(vtkGranularContactSums);
 
 namespace
 {
-constexpr const char* FrictionArray = "mobilised_friction";
-
-constexpr MadeArray Arrays[] = {
-  { "coordination", true },
-  { "contact_force", true },
-  { "contact_torque", true },
-  { "fabric", true },
-  { "contact_stress", true },
-  { "principal_stress", false },
-  { "von_mises", false },
-  { "rattler", false },
-  { "coordination_without_rattlers", false },
-  { FrictionArray, false },
-};
-
 /**
- * An array of integers, one a row.
+ * Returns an array that takes over the values of a sum.
  */
-template <class Array>
-vtkSmartPointer<Array> IntegersOf(const char* name, const granular::Block& block, vtkIdType rows)
+vtkSmartPointer<vtkDataArray> ArrayOfSum(granular::SummedArray& sum, vtkIdType rows)
 {
-  using Value = typename Array::ValueType;
-  return ArrayOf<Array>(
-    name, std::span(static_cast<const Value*>(block.data()), static_cast<std::size_t>(rows)));
-}
-
-void ExpectNumber(const char* name, double value, bool zero)
-{
-  if (!(value >= 0 && (zero || value > 0) && value <= std::numeric_limits<double>::max()))
+  const auto integers = [&]<class Array>(Array*)
   {
-    throw granular::Error("expected a " + std::string(name) +
-      (zero ? " of 0 or more" : " above 0") + ", got " + granular::to_text(value));
+    const auto* const values = static_cast<const typename Array::ValueType*>(sum.values.data());
+    return ArrayOf<Array>(sum.name, std::span(values, static_cast<std::size_t>(rows)));
+  };
+  if (sum.type == granular::ValueType::Int32)
+  {
+    return integers(static_cast<vtkTypeInt32Array*>(nullptr));
   }
+  if (sum.type == granular::ValueType::UInt8)
+  {
+    return integers(static_cast<vtkUnsignedCharArray*>(nullptr));
+  }
+  auto array = TakeDoubles(sum.name, sum.values, rows, sum.components);
+  for (int i = 0; sum.components == 6 && i < 6; ++i)
+  {
+    array->SetComponentName(i, granular::tensor_components[i]);
+  }
+  return array;
 }
 }
 
@@ -84,126 +70,39 @@ public:
 private:
   void Execute() override
   {
-    this->Input.emplace(this->Particles, this->Ranks);
-    this->Read();
-    this->Sum();
-    this->FillParticles();
-    this->FillLines();
-    this->TellOfContacts();
-  }
-
-  bool IsOn(const char* name) const
-  {
-    return this->Self->ArraySelection->ArrayIsEnabled(name) != 0;
-  }
-
-  void Read()
-  {
-    if (!this->Contacts[0] && !this->Contacts[1])
-    {
-      throw granular::Error("expected contacts: the input Lines, Walls, or both, got none");
-    }
-    ExpectNumber("MinimumForce", this->Self->MinimumForce, true);
-    ExpectNumber("MinimumOverlap", this->Self->MinimumOverlap, true);
-    ExpectNumber("FrictionCoefficient", this->Self->FrictionCoefficient, false);
-    const bool arms = this->IsOn("contact_torque") || this->IsOn("contact_stress") ||
-      this->IsOn("principal_stress") || this->IsOn("von_mises");
-    ContactArrays wanted;
-    wanted.Force = arms || this->IsOn("contact_force") || this->IsOn(FrictionArray) ||
-      this->Self->MinimumForce > 0;
-    wanted.Tangential = this->IsOn(FrictionArray);
-    wanted.Torque = this->IsOn("contact_torque");
-    wanted.Point = arms && this->Self->LeverArm == CONTACT_POINT;
-    wanted.Overlap = this->Self->MinimumOverlap > 0;
-    this->Rows.emplace(this->Contacts, wanted, this->Progress);
-    for (std::size_t port = 0; port < 2; ++port)
-    {
-      if (const std::optional<ContactInput>& input = this->Rows->Each[port])
-      {
-        this->All[port] = input->GetLines().Count();
-        this->LackForces = this->LackForces ||
-          (wanted.Force && this->All[port] > 0 && input->GetRows().force.empty());
-        this->LackPlaces = this->LackPlaces || input->GetLines().LackPlaces();
-        const std::string remark =
-          CompareTimesteps(this->Particles->GetFieldData(), input->GetLines().GetFieldData());
-        this->Remark = this->Remark.empty() ? remark : this->Remark;
-      }
-    }
-  }
-
-  void Sum()
-  {
-    granular::ContactSumsRequest request;
-    request.force = this->IsOn("contact_force");
-    request.torque = this->IsOn("contact_torque");
-    request.fabric = this->IsOn("fabric");
-    request.stress = this->IsOn("contact_stress");
-    request.principal_stress = this->IsOn("principal_stress");
-    request.von_mises = this->IsOn("von_mises");
-    request.friction = this->IsOn(FrictionArray);
-    const bool rattlers = this->IsOn("rattler") || this->IsOn("coordination_without_rattlers");
-    request.least_contacts = rattlers ? this->Self->RattlerContacts : 0;
-    request.options.arm = this->Self->LeverArm == HALF_BRANCH ? granular::LeverArm::Half
-                                                              : granular::LeverArm::ContactPoint;
-    request.options.least_force = this->Self->MinimumForce;
-    request.options.least_overlap = this->Self->MinimumOverlap;
-    request.radius = this->Self->RadiusArray;
+    const vtkGranularContactSums& self = *this->Self;
+    const Particles particles(this->Given, this->Ranks);
+    const GivenContacts contacts({ this->Lines, this->GetInput(2) });
+    granular::ChosenSumsRequest request{ ChoiceOf(
+      self.ArraySelection, granular::contact_sum_arrays) };
+    request.half_branch = self.LeverArm == HALF_BRANCH;
+    request.least_force = self.MinimumForce;
+    request.least_overlap = self.MinimumOverlap;
+    request.rattler_contacts = self.RattlerContacts;
+    request.friction_coefficient = self.FrictionCoefficient;
+    request.radius = self.RadiusArray;
     request.threads = this->Threads;
-    this->Progress.set_part(0.1, 0.95);
-    this->Sums = granular::sum_contacts(
-      this->Input->View, this->Rows->Rows, request, this->Group, this->Progress);
-    this->Group.sum(this->All);
-  }
-
-  /**
-   * Adds the arrays that were made, with a tuple for each particle.
-   */
-  void AddArrays(vtkPointData* data)
-  {
-    const vtkIdType rows = this->Input->View.rows;
-    granular::ContactSums& sums = this->Sums;
-    if (this->IsOn("coordination"))
+    request.timestep = TimestepOf(this->Given->GetFieldData());
+    this->Sums = granular::sum_chosen(
+      particles.View, contacts.Sources, request, this->Group, this->Notices, this->Progress);
+    this->FillParticles();
+    if (auto* const lines = vtkPointSet::SafeDownCast(this->Lines); lines && this->Sums.friction)
     {
-      data->AddArray(IntegersOf<vtkTypeInt32Array>("coordination", sums.coordination, rows));
-    }
-    const auto add = [&](const char* name, granular::Block& block, int components)
-    {
-      if (block.data())
-      {
-        auto array = TakeDoubles(name, block, rows, components);
-        constexpr const char* parts[] = { "XX", "YY", "ZZ", "XY", "XZ", "YZ" };
-        for (int i = 0; components == 6 && i < 6; ++i)
-        {
-          array->SetComponentName(i, parts[i]);
-        }
-        data->AddArray(array);
-      }
-    };
-    add("contact_force", sums.force, 3);
-    add("contact_torque", sums.torque, 3);
-    add("fabric", sums.fabric, 6);
-    add("contact_stress", sums.stress, 6);
-    add("principal_stress", sums.principal_stress, 3);
-    add("von_mises", sums.von_mises, 1);
-    if (this->IsOn("rattler"))
-    {
-      data->AddArray(IntegersOf<vtkUnsignedCharArray>("rattler", sums.rattlers, rows));
-    }
-    if (this->IsOn("coordination_without_rattlers"))
-    {
-      data->AddArray(
-        IntegersOf<vtkTypeInt32Array>("coordination_without_rattlers", sums.backbone, rows));
+      this->FillLines(lines, *contacts.Rows[0]);
     }
   }
 
   void FillParticles()
   {
-    auto* input = vtkPointSet::SafeDownCast(this->Particles);
+    auto* input = vtkPointSet::SafeDownCast(this->Given);
     vtkNew<vtkPolyData> all;
     const vtkIdType rows = input->GetNumberOfPoints();
     all->SetPoints(input->GetPoints());
     all->GetPointData()->PassData(input->GetPointData());
-    this->AddArrays(all->GetPointData());
+    for (granular::SummedArray& sum : this->Sums.arrays)
+    {
+      all->GetPointData()->AddArray(ArrayOfSum(sum, rows));
+    }
     auto* output = this->GetOutput<vtkPolyData>();
     auto* cells = vtkPolyData::SafeDownCast(input);
     if (this->Together && cells)
@@ -224,16 +123,9 @@ private:
     }
     vtkFieldData* fields = output->GetFieldData();
     fields->PassData(input->GetFieldData());
-    const auto mean = [&](const char* name, vtkTypeInt64 contacts, vtkTypeInt64 particles)
+    for (const auto& [name, value] : this->Sums.means)
     {
-      fields->AddArray(MakeDoubles(name,
-        { particles > 0 ? static_cast<double>(contacts) / static_cast<double>(particles) : 0.0 }));
-    };
-    mean("mean_coordination", this->Sums.contacts, this->Sums.particles);
-    if (this->Sums.rattlers.data() || this->Sums.backbone.data())
-    {
-      mean("mean_coordination_without_rattlers", this->Sums.bearing,
-        this->Sums.particles - this->Sums.rattling);
+      fields->AddArray(MakeDoubles(name, { value }));
     }
   }
 
@@ -263,62 +155,23 @@ private:
   /**
    * Lines with their mobilised friction.
    */
-  void FillLines()
+  void FillLines(vtkPointSet* input, const LocalRows& rows)
   {
     auto* output = this->GetOutput<vtkPolyData>(1);
-    auto* input = vtkPointSet::SafeDownCast(this->Contacts[0]);
-    if (this->Sums.friction.empty() || !input)
-    {
-      return;
-    }
-    const LocalRows& rows = this->Rows->Each[0]->GetLines();
     const auto [first, last] = this->RangeOf(rows.Count());
     std::vector<std::int64_t> wanted(static_cast<std::size_t>(last - first));
     std::iota(wanted.begin(), wanted.end(), first);
     const ChosenCells cells = rows.AddLines(input, wanted, output);
     rows.PassCells(cells.All, output->GetCellData());
-    const auto* const friction = static_cast<const double*>(this->Sums.friction[0].data());
-    output->GetCellData()->AddArray(ArrayOf<vtkDoubleArray>(FrictionArray, cells.Rows,
-      [&](std::int64_t row) { return friction[row] / this->Self->FrictionCoefficient; }));
+    const std::vector<double>& friction = *this->Sums.friction;
+    output->GetCellData()->AddArray(ArrayOf<vtkDoubleArray>(granular::friction_array, cells.Rows,
+      [&](std::int64_t row) { return friction[static_cast<std::size_t>(row)]; }));
     output->GetFieldData()->PassData(input->GetFieldData());
   }
 
-  void TellOfContacts()
-  {
-    const std::string ofAll = " of " + std::to_string(this->All[0] + this->All[1]) + " contacts ";
-    this->Tell(this->LackPlaces && this->All[0] + this->All[1] == 0, "no places",
-      "an input has no lines, as its file does not say where these are: take the rows, the second "
-      "output of the reader");
-    this->Tell(this->Sums.missing > 0, "missing",
-      std::to_string(this->Sums.missing) + ofAll +
-        "name a particle that is not there: they count for the other one alone" +
-        (this->Sums.unplaced > 0 ? "; " + std::to_string(this->Sums.unplaced) +
-              " of these have no line, and count for coordination and force alone"
-                                 : ""));
-    this->Tell(this->Sums.broken > 0, "broken",
-      std::to_string(this->Sums.broken) + ofAll +
-        "are left out: a number of theirs is no number, infinite or too large");
-    this->Tell(this->Sums.repeated > 0, "repeated",
-      std::to_string(this->Sums.repeated) +
-        " particles have the id of another one: contacts go to the first");
-    this->Tell(!this->Remark.empty(), "timesteps", this->Remark);
-    const std::string unknown = TellOfUnknown(this->Self->ArraySelection, Arrays);
-    this->Tell(!unknown.empty(), "unknown arrays", unknown);
-    this->Tell(this->LackForces, "no forces",
-      "the contacts have neither an array 'force' nor 'force_normal': what needs forces is not "
-      "made");
-  }
-
-  vtkDataObject* const Particles = this->GetInput(0);
-  /// between particles, with walls
-  const std::array<vtkDataObject*, 2> Contacts = { this->GetInput(1), this->GetInput(2) };
-  std::optional<vtkGranularPrivate::Particles> Input;
-  std::optional<ContactInputs> Rows;
-  granular::ContactSums Sums;
-  std::array<std::int64_t, 2> All = {}; ///< contacts of all processes
-  std::string Remark;
-  bool LackForces = false;
-  bool LackPlaces = false;
+  vtkDataObject* const Given = this->GetInput(0);
+  vtkDataObject* const Lines = this->GetInput(1);
+  granular::ChosenSums Sums;
 };
 
 vtkGranularExecuteMacro(vtkGranularContactSums);
@@ -327,7 +180,7 @@ vtkGranularOutputMacro(vtkGranularContactSums, GetLinesOutput, vtkPolyData, 1);
 
 //------------------------------------------------------------------------------
 vtkGranularContactSums::vtkGranularContactSums()
-  : ArraySelection(MakeSelection(this, Arrays))
+  : ArraySelection(MakeSelection(this, granular::contact_sum_arrays))
 {
   this->SetPorts(
     { Input::Required, Input::Optional, Input::Optional }, { "vtkPolyData", "vtkPolyData" });

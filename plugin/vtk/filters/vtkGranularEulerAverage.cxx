@@ -10,10 +10,7 @@
 #include "private/request/processes.h"
 #include "private/request/request_task.h"
 
-#include "granular/averages/average.h"
-#include "granular/averages/time_average.h"
-#include "granular/numbers/number_print.h"
-#include "granular/particles/bounds.h"
+#include "granular/averages/cell_averaging.h"
 
 #include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
@@ -30,24 +27,14 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
 
 vtkStandardNewMacro(vtkGranularEulerAverage);
 
-namespace
-{
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-bool AreGiven(const double bounds[6])
-{
-  return bounds[0] <= bounds[1] && bounds[2] <= bounds[3] && bounds[4] <= bounds[5];
-}
-}
 
 //------------------------------------------------------------------------------
 class vtkGranularEulerAverage::Task : public FilterTask<vtkGranularEulerAverage, AverageTask>
@@ -56,31 +43,45 @@ public:
   using FilterTask::FilterTask;
 
   /**
-   * Returns what the properties say of the cells, but for the bounds and the largest diameter.
+   * Returns what the properties say of the cells.
    */
-  static granular::EulerGridRequest DescribeCells(const vtkGranularEulerAverage& self)
+  static granular::ChosenCells DescribeCells(const vtkGranularEulerAverage& self)
   {
-    granular::EulerGridRequest request;
-    request.by = static_cast<granular::EulerGridRequest::By>(self.CellsBy);
-    std::copy_n(self.CellCounts, 3, request.counts.begin());
-    std::copy_n(self.CellSize, 3, request.size.begin());
-    return request;
+    granular::ChosenCells cells;
+    cells.grid.by = static_cast<granular::EulerGridRequest::By>(self.CellsBy);
+    std::copy_n(self.CellCounts, 3, cells.grid.counts.begin());
+    std::copy_n(self.CellSize, 3, cells.grid.size.begin());
+    cells.relative_size = self.CellSizeRelative;
+    std::copy_n(self.Bounds, 6, cells.bounds.begin());
+    if (self.OutputType == PROFILE)
+    {
+      cells.profile = self.ProfileAxis;
+    }
+    cells.kernel_bounds =
+      self.KernelBounds == INSIDE ? granular::KernelBounds::Inside : granular::KernelBounds::None;
+    cells.images = self.Periodic == BOUNDARY;
+    cells.time_average = self.TimeAverage;
+    cells.image = self.OutputType == IMAGE_DATA;
+    return cells;
   }
 
 private:
-  void Average() override
+  void Execute() override
   {
+    granular::CellAveraging averaging(this->Choose(this->Self->Weights, this->Self->StressArray),
+      DescribeCells(*this->Self), this->Group, this->Notices);
     if (this->Self->TimeAverage)
     {
-      this->AverageFrames();
-      return;
+      this->AddFrames(averaging);
     }
-    granular::EulerAverages averages = this->AverageFrame(this->Inputs);
-    this->Cells = std::move(averages.cells);
-    this->Fields = std::move(averages.fields);
+    else
+    {
+      this->AddFrame(averaging, this->Inputs);
+    }
+    this->Fill(averaging.grid(), averaging.finish());
   }
 
-  void AverageFrames()
+  void AddFrames(granular::CellAveraging& averaging)
   {
     const InputFrames::Part part{ this->Group.rank(), this->Group.size(), 0 };
     std::array<std::optional<InputFrames>, 3> inputs;
@@ -93,7 +94,6 @@ private:
     }
     const std::vector<double> times = inputs[0]->GetTimes();
     CheckTimes(times, this->Ranks);
-    granular::TimeAverage sums;
     const std::size_t count = std::max<std::size_t>(times.size(), 1);
     for (std::size_t frame = 0; frame < count; ++frame)
     {
@@ -109,83 +109,16 @@ private:
       }
       this->Progress.set_part(static_cast<double>(frame) / static_cast<double>(count),
         static_cast<double>(frame + 1) / static_cast<double>(count));
-      const granular::EulerAverages averages = this->AverageFrame(data);
-      granular::do_together(this->Ranks, [&] { sums.add(averages); });
+      this->AddFrame(averaging, data);
     }
-    this->Cells = sums.cells();
-    this->Fields = sums.fields();
   }
 
-  granular::EulerAverages AverageFrame(const FrameInputs& inputs)
+  void AddFrame(granular::CellAveraging& averaging, const FrameInputs& inputs)
   {
-    this->Grains.emplace(inputs[0], this->Ranks);
-    granular::FrameView& view = this->Grains->View;
-    granular::EulerAverageRequest request;
-    this->Choose(request, this->Self->StressArray);
-    if (this->HaveContacts() && !request.arrays.stress.empty())
-    {
-      throw granular::Error("expected a StressArray or contacts (Lines, Walls), got both: contacts "
-                            "would count twice");
-    }
-    const double largest = this->Self->CellsBy == RELATIVE_SIZE
-      ? granular::largest_radius(view, request.arrays, this->Group)
-      : 0;
-    const std::string boundary = view.header.box.boundary;
-    if (this->Self->Periodic == NONE)
-    {
-      view.header.box.boundary.clear();
-    }
-    this->CheckInput(inputs[0]);
-    this->Grid = request.grid = this->MakeGrid(largest);
-    request.wanted = this->FindWanted(request.grid);
-    request.cells = this->MakeWeights(this->Self->Weights,
-      this->Self->KernelBounds == INSIDE ? granular::KernelBounds::Inside
-                                         : granular::KernelBounds::None,
-      request.arrays);
-    request.keep_sums = this->Self->TimeAverage || request.fields.coordination;
-    const bool contacts = NeedsContacts(request);
-    const granular::Executor executor(this->Threads);
-    granular::PartialProgress progress(this->Progress);
-    progress.set_part(0, contacts ? 0.5 : 1);
-    granular::EulerAverages averages =
-      granular::average_in_cells(view, request, this->Group, executor, this->Notices, progress);
-    if (contacts)
-    {
-      progress.set_part(0.5, 1);
-      const granular::Box box = view.header.box;
-      view.header.box.boundary = boundary; // a contact crosses a face, though nothing has images
-      granular::average_contacts(this->FindContacts(inputs, request.tensors, executor, progress),
-        view.has_box ? &box : nullptr, request, this->Group, executor, progress, averages);
-      this->Ends.reset();
-      this->Contacts.reset();
-    }
-    this->Outside += averages.outside;
-    this->Broken += averages.broken;
-    return averages;
-  }
-
-  granular::EulerGrid MakeGrid(double largestRadius) const
-  {
-    const vtkGranularEulerAverage& self = *this->Self;
-    granular::EulerGridRequest request = DescribeCells(self);
-    std::tie(request.lo, request.hi) =
-      granular::find_bounds(this->Grains->View, std::to_array(self.Bounds), nullptr);
-    if (self.CellsBy == RELATIVE_SIZE)
-    {
-      if (!(self.CellSizeRelative > 0))
-      {
-        throw granular::Error(
-          "expected a CellSizeRelative above 0, got " + granular::to_text(self.CellSizeRelative));
-      }
-      request.cutoff = self.CellSizeRelative * 2 * largestRadius;
-    }
-    granular::EulerGrid grid = granular::make_euler_grid(request);
-    for (std::size_t axis = 0; self.OutputType == PROFILE && axis < 3; ++axis)
-    {
-      grid.counts[axis] =
-        axis == static_cast<std::size_t>(self.ProfileAxis) ? grid.counts[axis] : 1;
-    }
-    return grid;
+    const Frame& frame = this->Last.emplace(inputs, this->Ranks);
+    averaging.add(
+      frame.Input, [this](const granular::EulerGrid& grid) { return this->FindWanted(grid); },
+      this->Ranks, this->Progress);
   }
 
   /**
@@ -208,12 +141,11 @@ private:
     return wanted;
   }
 
-  void Fill() override
+  void Fill(const granular::EulerGrid& grid, const granular::EulerFrame& frame)
   {
-    const granular::FrameView& view = this->Grains->View;
+    const granular::FrameView& view = this->Last->Grains.View;
     const bool scaled = view.coordinates == granular::Coordinates::Scaled;
     const granular::Vector3 origin = scaled ? granular::Vector3{} : view.point_origin;
-    const granular::EulerFrame frame = this->TakeFrame();
     auto* output = this->GetOutput<vtkDataObject>();
     if (this->Self->OutputType == POINTS)
     {
@@ -225,8 +157,8 @@ private:
     }
     else
     {
-      FillImage(vtkImageData::SafeDownCast(output), this->Grid, this->Extent, frame,
-        { this->Extent, 0 }, origin);
+      FillImage(
+        vtkImageData::SafeDownCast(output), grid, this->Extent, frame, { this->Extent, 0 }, origin);
     }
     vtkFieldData* data = output->GetFieldData();
     data->PassData(this->Inputs[0]->GetFieldData());
@@ -242,7 +174,7 @@ private:
     }
   }
 
-  granular::EulerGrid Grid;
+  std::optional<Frame> Last;
   CellExtent Extent = {};
 };
 
@@ -260,28 +192,6 @@ int vtkGranularEulerAverage::RequestDataObject(vtkInformation* vtkNotUsed(reques
       vtkDataObject::DATA_OBJECT(), vtk::TakeSmartPointer(vtkDataObjectTypes::NewDataObject(type)));
   }
   return 1;
-}
-
-namespace
-{
-/**
- * Throws where the extent of an image cannot be known before the particles.
- */
-void ExpectExtent(int cellsBy, const double bounds[6])
-{
-  if (cellsBy == vtkGranularEulerAverage::RELATIVE_SIZE)
-  {
-    throw granular::Error(
-      "expected points as output for CellSizeRelative, got an image, whose extent must be "
-      "known before the particles");
-  }
-  if (cellsBy == vtkGranularEulerAverage::SIZE && !AreGiven(bounds))
-  {
-    throw granular::Error(
-      "expected Bounds for an image of cells of a CellSize, got none: give Bounds, "
-      "CellCounts, or output points");
-  }
-}
 }
 
 //------------------------------------------------------------------------------
@@ -304,18 +214,7 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
     return 1;
   }
   const Outcome outcome = Guard(this, *this->Ranks, outputVector,
-    [&]
-    {
-      ExpectExtent(this->CellsBy, this->Bounds);
-      const bool given = AreGiven(this->Bounds);
-      granular::EulerGridRequest request = Task::DescribeCells(*this);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        request.lo[axis] = given ? this->Bounds[2 * axis] : 0;
-        request.hi[axis] = given ? this->Bounds[2 * axis + 1] : 1;
-      }
-      OfferExtent(info, ExtentOf(granular::make_euler_grid(request)));
-    });
+    [&] { OfferExtent(info, ExtentOf(Task::DescribeCells(*this).known_grid())); });
   return this->Ranks->EndRequest(this, outcome);
 }
 
@@ -323,11 +222,8 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
 void vtkGranularEulerAverage::Execute(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (this->OutputType == IMAGE_DATA)
-  {
-    ExpectExtent(
-      this->CellsBy, this->Bounds); // for a pipeline that goes on after RequestInformation failed
-  }
+  // for a pipeline that goes on after RequestInformation failed
+  Task::DescribeCells(*this).expect_extent();
   Task(this, request, inputVector, outputVector).Run();
 }
 

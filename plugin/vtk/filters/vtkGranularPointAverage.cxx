@@ -7,7 +7,7 @@
 #include "private/request/print.h"
 #include "private/request/request_task.h"
 
-#include "granular/averages/average.h"
+#include "granular/averages/chosen_averages.h"
 
 #include "vtkDataSet.h"
 #include "vtkFieldData.h"
@@ -18,7 +18,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 using namespace vtkGranularPrivate;
@@ -34,64 +33,32 @@ public:
   using FilterTask::FilterTask;
 
 private:
-  void Average() override
+  void Execute() override
   {
     this->Points = ExpectData<vtkDataSet>(this->GetInput(POINTS_PORT), "a vtkDataSet as Points");
-    this->Grains.emplace(this->Inputs[0], this->Ranks);
-    const granular::FrameView& view = this->Grains->View;
-    granular::PointAverageRequest request;
-    this->Choose(request);
-    const granular::WeightOptions weights =
-      this->MakeWeights(this->Self->Kernel, granular::KernelBounds::None, request.arrays);
-    granular::check_width(weights.width);
-    request.kernel = granular::Kernel(weights.kernel, weights.width);
-    this->CheckInput(this->Inputs[0]);
-    const granular::Executor executor(this->Threads);
-    const granular::FoundEnds* contacts = nullptr;
-    if (NeedsContacts(request))
-    {
-      this->Progress.set_part(0, 0.3);
-      contacts = &this->FindContacts(this->Inputs, request.tensors, executor, this->Progress);
-    }
-    this->Progress.set_part(contacts ? 0.3 : 0, 0.95);
-    granular::EulerAverages averages = granular::average_at_points(view, this->ReadPoints(),
-      contacts, request, this->Group, executor, this->Notices, this->Progress);
-    this->Broken = averages.broken;
-    this->Cells = std::move(averages.cells);
-    this->Fields = std::move(averages.fields);
+    const Frame frame(this->Inputs, this->Ranks);
+    granular::PointAveraging averaging(
+      this->Choose(this->Self->Kernel), this->Group, this->Notices);
+    this->Fill(averaging.average(frame.Input, this->ReadPoints(), this->Progress));
   }
 
-  /**
-   * Absolute places.
-   */
   std::vector<double> ReadPoints() const
   {
-    const granular::FrameView& view = this->Grains->View;
     const vtkIdType count = this->Points->GetNumberOfPoints();
-    if (view.coordinates == granular::Coordinates::Scaled && count > 0)
-    {
-      throw granular::UnsupportedError("expected absolute or unwrapped coordinates of the "
-                                       "particles, got scaled ones: set Coordinates of the reader");
-    }
     std::vector<double> places(static_cast<std::size_t>(3 * count));
     for (vtkIdType i = 0; i < count; ++i)
     {
-      double* const place = places.data() + 3 * i;
-      this->Points->GetPoint(i, place);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        place[axis] += view.point_origin[axis];
-      }
+      this->Points->GetPoint(i, places.data() + 3 * i);
     }
     return places;
   }
 
-  void Fill() override
+  void Fill(const granular::EulerFrame& averages)
   {
     auto* output = this->GetOutput<vtkDataSet>();
     output->ShallowCopy(this->Points);
     vtkNew<vtkPointData> fields;
-    AddArrays(fields, this->TakeFrame(), this->Points->GetNumberOfPoints());
+    AddArrays(fields, averages, this->Points->GetNumberOfPoints());
     for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* const array = fields->GetAbstractArray(i);

@@ -2,35 +2,28 @@
 #ifndef vtkGranularMadeArrays_h
 #define vtkGranularMadeArrays_h
 
+#include "granular/common/made_arrays.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
 
-#include <algorithm>
 #include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 namespace vtkGranularPrivate
 {
 /**
- * An array that an algorithm can make, and whether it does if nobody chooses.
- */
-struct MadeArray
-{
-  const char* Name;
-  bool On;
-};
-
-/**
  * Returns a new selection of arrays, whose changes modify the algorithm.
  */
-inline vtkDataArraySelection* MakeSelection(vtkAlgorithm* self, std::span<const MadeArray> arrays)
+inline vtkDataArraySelection* MakeSelection(
+  vtkAlgorithm* self, std::span<const granular::MadeArray> arrays)
 {
   vtkDataArraySelection* selection = vtkDataArraySelection::New();
-  for (const MadeArray& array : arrays)
+  for (const granular::MadeArray& array : arrays)
   {
-    selection->AddArray(array.Name, array.On);
+    selection->AddArray(array.name, array.on);
   }
   selection->AddObserver(
     vtkCommand::ModifiedEvent, static_cast<vtkObject*>(self), &vtkObject::Modified);
@@ -38,32 +31,20 @@ inline vtkDataArraySelection* MakeSelection(vtkAlgorithm* self, std::span<const 
 }
 
 /**
- * Returns a remark on the arrays of a selection that the algorithm does not make, though somebody turned them on; empty if there are none.
+ * Returns the arrays that are on.
  */
-inline std::string TellOfUnknown(
-  vtkDataArraySelection* selection, std::span<const MadeArray> arrays)
+inline granular::ArrayChoice ChoiceOf(
+  vtkDataArraySelection* selection, std::span<const granular::MadeArray> known)
 {
-  std::string unknown;
+  std::vector<std::string> on;
   for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
   {
-    const std::string name = selection->GetArrayName(i);
-    if (selection->GetArraySetting(i) != 0 &&
-      std::ranges::find(arrays, name,
-        [](const MadeArray& array) { return std::string_view(array.Name); }) == arrays.end())
+    if (selection->GetArraySetting(i) != 0)
     {
-      unknown += " '" + name + "'";
+      on.emplace_back(selection->GetArrayName(i));
     }
   }
-  if (unknown.empty())
-  {
-    return unknown;
-  }
-  std::string known;
-  for (const MadeArray& array : arrays)
-  {
-    known += std::string(known.empty() ? "" : ", ") + array.Name;
-  }
-  return "there is no array" + unknown + ": Arrays may name " + known;
+  return { known, on };
 }
 }
 

@@ -205,23 +205,7 @@ void RowsInput::ReadFieldData(vtkFieldData* data)
 
 std::vector<double> ReadAbsolutePoints(vtkPointSet* input)
 {
-  DumpInput data(input);
-  if (data.View.coordinates == granular::Coordinates::Unwrapped)
-  {
-    data.View.coordinates = granular::Coordinates::Absolute;
-  }
-  const granular::AbsolutePositions positions(data.View, false);
-  constexpr auto most = static_cast<std::int64_t>(granular::AbsolutePositions::most_rows);
-  std::vector<double> buffer(3 * granular::AbsolutePositions::most_rows);
-  std::vector<double> points;
-  points.reserve(static_cast<std::size_t>(3 * data.View.rows));
-  for (std::int64_t first = 0; first < data.View.rows; first += most)
-  {
-    const auto count = static_cast<std::size_t>(std::min(most, data.View.rows - first));
-    const double* loaded = positions.load(first, count, buffer.data());
-    points.insert(points.end(), loaded, loaded + 3 * count);
-  }
-  return points;
+  return granular::absolute_points(DumpInput(input).View);
 }
 
 Particles::Particles(vtkDataObject* input, granular::Communicator& ranks)

@@ -5,6 +5,7 @@
 #include "private/request/request_task.h"
 
 #include "granular/common/error.h"
+#include "granular/common/words.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellArray.h"
@@ -23,10 +24,10 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <iterator>
 #include <ranges>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace vtkGranularPrivate
 {
@@ -34,37 +35,23 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
-/**
- * Components that are not those of a vector along x, y and z.
- */
-struct ComponentNames
-{
-  std::string_view Array;
-  const char* Names[6];
-};
-
-constexpr ComponentNames Tensors[] = {
-  { "sigma", { "XX", "YY", "ZZ" } },
-  { "tau", { "XY", "XZ", "YZ" } },
-  { "sigma_kinetic", { "XX", "YY", "ZZ" } },
-  { "tau_kinetic", { "XY", "XZ", "YZ" } },
-  { "sigma_contact", { "XX", "YY", "ZZ" } },
-  { "tau_contact", { "XY", "XZ", "YZ" } },
-  { "fabric", { "XX", "YY", "ZZ", "XY", "XZ", "YZ" } },
-};
-
 vtkSmartPointer<vtkDoubleArray> MakeArray(const granular::EulerValues& values, vtkIdType cells)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
   array->SetName(values.name.c_str());
   array->SetNumberOfComponents(values.components);
   array->SetNumberOfTuples(cells);
-  for (const ComponentNames& tensor : Tensors)
+  const auto* const tensor =
+    std::ranges::find(granular::tensor_arrays, values.name, &granular::TensorArray::name);
+  if (tensor != std::end(granular::tensor_arrays))
   {
-    for (int i = 0;
-         tensor.Array == values.name && i < values.components && i < 6 && tensor.Names[i]; ++i)
+    int component = 0;
+    for (const std::string_view name : granular::split_words(tensor->components))
     {
-      array->SetComponentName(i, tensor.Names[i]);
+      if (component < values.components)
+      {
+        array->SetComponentName(component++, std::string(name).c_str());
+      }
     }
   }
   return array;
@@ -136,30 +123,6 @@ CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole)
       all.data(), asked.data(), vtkExtentTranslator::BLOCK_MODE, 0);
   }
   return asked;
-}
-
-granular::EulerFrame MakeFrame(granular::EulerCells&& cells, granular::EulerFields&& fields)
-{
-  granular::EulerFrame frame;
-  frame.cells = cells.count();
-  frame.centres = std::move(cells.centres);
-  for (const granular::EulerArray& array : granular::euler_arrays())
-  {
-    std::vector<double>& values = cells.*array.values;
-    if (!array.optional || !values.empty())
-    {
-      frame.arrays.push_back({ std::string(array.name), array.components, std::move(values) });
-    }
-  }
-  for (const granular::EulerField& field : granular::euler_fields)
-  {
-    std::vector<double>& values = fields.*field.values;
-    if (!values.empty())
-    {
-      frame.arrays.push_back({ std::string(field.name), field.components, std::move(values) });
-    }
-  }
-  return frame;
 }
 
 void AddArrays(vtkDataSetAttributes* data, const granular::EulerFrame& frame, vtkIdType count,

@@ -42,11 +42,6 @@ void OfferExtent(vtkInformation* output, const CellExtent& whole);
 CellExtent AskedExtent(vtkInformation* output, const CellExtent& whole);
 
 /**
- * Returns cells with the names in files: v_avg, volumefraction, ..., and with more fields. Takes over their memory.
- */
-granular::EulerFrame MakeFrame(granular::EulerCells&& cells, granular::EulerFields&& fields);
-
-/**
  * Fills the output with cells [begin, end) of a frame as points minus the origin, each with a vertex, and point arrays
  * of doubles.
  */
