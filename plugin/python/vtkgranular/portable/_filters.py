@@ -2,6 +2,7 @@
 """The base of sources and filters: the work of the C library on data of the pipeline."""
 from __future__ import annotations
 
+import weakref
 from typing import Any, Callable
 
 from vtkmodules.vtkCommonCore import vtkDataArraySelection
@@ -33,7 +34,8 @@ class Filter(Algorithm):
         on = c.c_int()
         while name := c.library().granular_made_array(type(self).__name__.encode(), self._selection.GetNumberOfArrays(), c.byref(on)):
             self._selection.AddArray(c.text(name), bool(on.value))
-        self._selection.AddObserver("ModifiedEvent", lambda *_: self.Modified())
+        algorithm = weakref.ref(self)  # an observer that has it would keep it for ever
+        self._selection.AddObserver("ModifiedEvent", lambda *_: algorithm().Modified())
 
     def GetArraySelection(self) -> vtkDataArraySelection:
         return self._selection
