@@ -101,6 +101,8 @@ public:
   Settings settings;
   granular::Communicator& ranks; ///< all
   const std::size_t frames;
+  const std::vector<double> times; ///< of the frames, or none
+  const std::size_t shown;
   const int piece;
   const int pieces;
   const bool together;           ///< each rank asks for its own piece
@@ -148,5 +150,6 @@ Frames apply_decomposition(FilterTask& task);
 Frames apply_contact_sums(FilterTask& task);
 Frames apply_point_average(FilterTask& task);
 Frames apply_euler_average(FilterTask& task);
+Frames apply_compare(FilterTask& task);
 }
 #endif

@@ -40,6 +40,7 @@ constexpr Filter filters[] = {
   { "GranularContactSums", apply_contact_sums, contact_sum_arrays },
   { "GranularPointAverage", apply_point_average, average_arrays },
   { "GranularEulerAverage", apply_euler_average, average_arrays },
+  { "GranularCompare", apply_compare },
 };
 
 const Filter& find_filter(const std::string& name)
@@ -225,6 +226,8 @@ FilterTask::FilterTask(const granular_task& given, Communicator& all, Progress& 
   : settings({ given.settings, given.settings == nullptr ? 0 : given.setting_count })
   , ranks(all)
   , frames(given.frames)
+  , times(given.times, given.times + (given.times == nullptr ? 0 : given.frames))
+  , shown(given.shown)
   , piece(given.pieces > 0 ? given.piece : all.rank())
   , pieces(given.pieces > 0 ? given.pieces : all.size())
   , together(are_together(piece, pieces, given.input == nullptr, all))
@@ -233,6 +236,11 @@ FilterTask::FilterTask(const granular_task& given, Communicator& all, Progress& 
   , progress(caller)
   , given_(given)
 {
+  if (shown >= frames)
+  {
+    throw ArgumentError("expected the number of a frame from 0 to " + std::to_string(frames) +
+      " - 1, got " + std::to_string(shown));
+  }
   if (piece < 0 || piece >= pieces)
   {
     throw ArgumentError("expected a piece from 0 to " + std::to_string(pieces - 1) + ", got " +

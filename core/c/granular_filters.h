@@ -32,6 +32,11 @@ extern "C"
  *                        makes, but none of the input; facts in one row: "box_of_lines", 1 where the box is that of the lines, and
  *                        "had_parts", 1 where the lines of the input were split
  * GranularDecompositionSource  no input; results: subdomains with lo, hi, nlocal, proc
+ * GranularCompare        inputs: particles; contacts or bonds as lines, if there are any; and, asked for if no rank has particles with id,
+ *                        the lines at the first input. Of each the shown frame, and that to compare with. Results: particles, and
+ *                        lines, each with "input_row", the rows of the input (lines: cells) at the shown frame, then those at the other
+ *                        frame, which are lost, and the arrays that the filter makes; facts in one row: "of_lines", 1 where lines are in
+ *                        place of particles, and "reference", the number of the other frame
  * GranularDecomposition  inputs: particles; for the mode 2, subdomains with lo, hi and, if known, proc. Results: subdomains as above, in
  *                        the coordinates of the points; facts in one row: "imbalance", "outside"
  * GranularContactSums    inputs: particles; contacts between them, and contacts with walls, as rows or lines: one of these at least. Results:
@@ -64,7 +69,8 @@ typedef struct granular_setting
 #define GRANULAR_GHOSTS "vtkGhostType"
 
 /* Sets *content to the rows of this rank at an input, or leaves it null if nothing is connected there. frame: 0, or the number of a frame
- * of filters over time. What content points to must stay until the same input is asked for again, or granular_apply returns. All
+ * of filters over time. What content points to must stay until the same input is asked for again, of GranularCompare both frames of
+ * each, or granular_apply returns. All
  * ranks are asked for the same inputs in the same order. Returns 0; any other value is an error of all ranks with the text in *failure,
  * or GRANULAR_CANCELLED if that is null. */
 typedef int (*granular_input)(size_t port, size_t frame, const granular_content** content, const char** failure, void* user);
@@ -78,6 +84,8 @@ typedef struct granular_task
   size_t setting_count;
   granular_input input; /* null for sources */
   size_t frames;        /* of the inputs, for filters over time; 1 (default) */
+  const double* times;  /* of these; null (default): none */
+  size_t shown;         /* the number of the shown frame; 0 (default) */
   /* part of the results that this rank gets, from 0 to pieces - 1, and the number of parts; 0 pieces (default): one for each rank, and
      the whole without ranks. With ranks each asks for its own part, or all for parts of what each has whole at its inputs */
   int piece;

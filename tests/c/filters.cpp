@@ -208,6 +208,51 @@ TEST(CFilters, ParticlesAreAveraged)
   EXPECT_EQ(density[2], 0);
 }
 
+// Particle 1 stays, 3 moves by 0.5, 4 is new and 2 is lost.
+TEST(CFilters, CompareFindsWhatHasMovedComeAndGone)
+{
+  struct Run
+  {
+    std::vector<double> points[2] = { { 1, 0, 0, 2, 0, 0, 3, 0, 0 },
+      { 3.5, 0, 0, 1, 0, 0, 9, 0, 0 } };
+    std::vector<std::int64_t> ids[2] = { { 1, 2, 3 }, { 3, 1, 4 } };
+    granular_array arrays[2][2];
+    granular_content contents[2];
+  } run;
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    run.arrays[i][0] = array("points", GRANULAR_FLOAT64, run.points[i], 3);
+    run.arrays[i][1] = array("id", GRANULAR_INT64, run.ids[i]);
+    granular_content_init(&run.contents[i]);
+    run.contents[i].arrays = run.arrays[i];
+    run.contents[i].array_count = 2;
+    run.contents[i].rows = 3;
+  }
+  const double times[] = { 0, 2 };
+  granular_task task = task_of("GranularCompare", {});
+  task.frames = 2;
+  task.times = times;
+  task.shown = 1;
+  task.user = &run;
+  task.input = [](std::size_t port, std::size_t frame, const granular_content** content,
+                 const char**, void* user)
+  {
+    *content = port == 0 ? &static_cast<Run*>(user)->contents[frame] : nullptr;
+    return 0;
+  };
+  Frames made;
+  ASSERT_EQ(run_task(task, made), GRANULAR_OK) << message();
+  const auto* const changes = static_cast<const std::int32_t*>(array_of(made[0], "change").data);
+  EXPECT_EQ(
+    std::vector<std::int32_t>(changes, changes + 4), (std::vector<std::int32_t>{ 0, 0, 1, 2 }));
+  const auto* const rows = static_cast<const std::int64_t*>(array_of(made[0], "input_row").data);
+  EXPECT_EQ(std::vector<std::int64_t>(rows, rows + 4), (std::vector<std::int64_t>{ 0, 1, 2, 1 }));
+  const std::vector<double> moved = doubles(made[0], "displacement");
+  EXPECT_EQ(moved[0], 0.5);
+  EXPECT_EQ(moved[3], 0);
+  EXPECT_TRUE(std::isnan(moved[6]) && std::isnan(moved[9]));
+}
+
 TEST(CFilters, ErrorsSayWhatWasExpected)
 {
   const double half = 0.5;

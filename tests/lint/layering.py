@@ -83,7 +83,7 @@ ROOMS = {room: words.split() for room, words in (
     ("packing", "common memory geometry parallel particles"),
     ("contacts", "common numbers memory geometry parallel frames particles sorting grid lines"),
     ("averages", "common numbers memory geometry parallel frames particles sorting lines grid contacts"),
-    ("paths", "common columns numbers memory geometry parallel frames particles sorting lines formats/dump/read"),
+    ("paths", "common columns numbers memory geometry parallel frames particles sorting lines grid averages formats/dump/read"),
 )}
 MOST_FILES = 40
 

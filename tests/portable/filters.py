@@ -49,6 +49,18 @@ def subdomains():
     return simple.GranularDecompositionSource(Bounds=[-0.05, 0.05, -0.05, 0.05, 0, 0.15], ProcessorGrid=[2, 2, 1])
 
 
+def breaking(**properties):
+    return reader("GranularDumpReader", "paths/breaking.dump", **properties)
+
+
+def breaking_bonds(port=1):
+    return reader("GranularLocalReader", "paths/breaking_bonds.dump", port=port, Preset="BondTypeIds")
+
+
+def breaking_lines(**properties):
+    return simple.GranularLocalJoin(Input=breaking(), Lines=breaking_bonds(), **properties)
+
+
 def split():
     """Lines that are split at the faces of the box."""
     return simple.GranularLocalJoin(Input=chain(), Lines=bonds(), PeriodicLines="Split", EquilibriumLength=1)
@@ -92,6 +104,29 @@ ALL_AVERAGES = ["v_avg", "volumefraction", "radius", "pressure", "sigma", "tau",
 BED = {"Input": bed, "Lines": contacts, "Walls": walls}
 MOVING = {"Input": lambda: bed("moving"), "Lines": lambda: contacts("moving_contacts"), "Walls": lambda: walls("moving_walls")}
 
+SOME = """from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+step = given.GetFieldData().GetArray("timestep").GetValue(0)
+ids = vtk_to_numpy(given.GetPointData().GetArray("id")) if given.GetNumberOfPoints() else []
+rows, points = vtkIdList(), vtkPoints()
+for row, id in enumerate(ids):
+    if CONDITION:
+        rows.InsertNextId(row)
+points.SetDataTypeToDouble()
+if rows.GetNumberOfIds():
+    given.GetPoints().GetPoints(rows, points)
+    output.SetPoints(points)
+    output.GetPointData().CopyAllOn()
+    output.GetPointData().CopyAllocate(given.GetPointData())
+    output.GetPointData().CopyData(given.GetPointData(), rows, 0)
+output.GetFieldData().ShallowCopy(given.GetFieldData())"""
+
+
+def some(condition):
+    """The particles of broken bonds for whose id, at this step, a condition holds; no arrays where none is left."""
+    return changed(breaking(), SOME.replace("CONDITION", condition), "vtkPolyData")
+
+
 #: The rows: the filter or source, its properties, and its inputs by their properties.
 FILTERS = [
     ("GranularPackingSource", {"NumberOfGrains": 300, "Speed": 1.0, "BondFactor": 1.5, "Boundary": "p p f"}, {}),
@@ -122,6 +157,19 @@ FILTERS = [
     ("GranularDecomposition", {"Mode": "ProcessArray"}, {"Input": grains}),
     ("GranularDecomposition", {"Mode": "ProcessArray", "ProcessArray": "type", "NumberOfProcesses": 7}, {"Input": grains}),
     ("GranularDecomposition", {"Mode": "Ranks"}, {"Input": grains}),
+    ("GranularCompare", {"Differences": "*"}, {"Input": breaking, "Lines": breaking_lines}),
+    ("GranularCompare", {"Reference": "Previous", "Differences": "image mass"}, {"Input": lambda: some("id % 3 or step % 800 == 0"), "Lines": lambda:
+                                                                             breaking_lines(PeriodicLines="Split")}),
+    ("GranularCompare", {"Reference": "Time", "ReferenceTime": 500, "MassArray": "x"}, {"Input": lambda: breaking(Coordinates="Scaled")}),
+    ("GranularCompare", {"Reference": "Time", "ReferenceTime": float("nan")}, {"Input": breaking}),
+    ("GranularCompare", {"Differences": "missing"}, {"Input": breaking}),
+    ("GranularCompare", {}, {"Input": breaking_lines}),
+    ("GranularCompare", {}, {"Input": breaking_lines, "Lines": breaking_lines}),
+    ("GranularCompare", {}, {"Input": breaking, "Lines": breaking_bonds}),
+    ("GranularCompare", {}, {"Input": breaking_bonds}),
+    ("GranularCompare", {}, {"Input": breaking, "Lines": lambda: breaking_bonds(port=0)}),
+    ("GranularCompare", {}, {"Input": lambda: changed(some("step > 0"), LOSE_BOX), "Lines": breaking_lines}),
+    ("GranularCompare", {}, {"Input": grains}),
     ("GranularDecomposition", {"Bounds": [float("nan"), 1, 0, 1, 0, 1]}, {"Input": grains}),
     ("GranularContactSums", {}, BED),
     ("GranularContactSums", {"Arrays": ALL_SUMS, "LeverArm": "HalfBranch", "MinimumForce": 0.001, "FrictionCoefficient": 0.5}, MOVING),

@@ -168,8 +168,8 @@ NO_TIMESTEP, GHOSTS, MOST_RESULTS = -2**63, "vtkGhostType", 8
 
 class Task(Structure):
     _fields_ = [("size", c_size_t), ("filter", c_char_p), ("settings", POINTER(Setting)), ("setting_count", c_size_t), ("input", INPUT),
-                ("frames", c_size_t), ("piece", c_int), ("pieces", c_int), ("ranks", POINTER(Ranks)), ("threads", c_int),
-                ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
+                ("frames", c_size_t), ("times", POINTER(c_double)), ("shown", c_size_t), ("piece", c_int), ("pieces", c_int),
+                ("ranks", POINTER(Ranks)), ("threads", c_int), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p)]
 
 
 _NAMES = POINTER(c_char_p)

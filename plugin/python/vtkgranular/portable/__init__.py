@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from ._averages import AVERAGES
 from ._lines import LINES
+from ._paths import PATHS
 from ._proxies import define
 from ._readers import READERS
 from ._sources import SOURCES
 from ._subdomains import SUBDOMAINS
 from ._writers import WRITERS
 
-_classes = {**READERS, **WRITERS, **SOURCES, **LINES, **AVERAGES, **SUBDOMAINS}
+_classes = {**READERS, **WRITERS, **SOURCES, **LINES, **AVERAGES, **SUBDOMAINS, **PATHS}
 definitions = define(_classes)
 globals().update({made.__name__: made for made in _classes.values()})  # where the definitions say they are

@@ -251,6 +251,13 @@ def rows_only(data: Any) -> Content:
     return lines(data, False)
 
 
+def lines_with_points(data: Any) -> Content:
+    """Takes cells as lines that have points, but not the places of the ends."""
+    if data is None or not data.IsA("vtkPointSet"):
+        raise _expected(data, "lines with points (GranularLocalJoin makes them of a table)")
+    return lines(data, False)
+
+
 def _points_of_cells(data: Any) -> tuple[Any, Any]:
     """Returns the ids of the points of all cells, and where those of each begin, with the end of the last. Raises Error unless all cells
     are lines."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from typing import Any, Callable
+from typing import Any, Callable, Sequence
 
 from vtkmodules.vtkCommonCore import vtkDataArraySelection
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -101,12 +101,14 @@ class Filter(Algorithm):
         """Fills the outputs with what the library has made of self.data, for self.piece."""
         raise NotImplementedError
 
-    def apply(self, frames: int = 1, split: bool = False) -> list[Table]:
-        """Lets the library do its work, tells its remarks, and returns what it has made. split: lines are parts of rows."""
+    def apply(self, split: bool = False, times: Sequence[float] = (), shown: int = 0) -> list[Table]:
+        """Lets the library do its work, tells its remarks, and returns what it has made. split: lines are parts of rows. times: of the frames
+        of the inputs, and the number of the shown one."""
         library, task, kept = c.library(), c.Task(), {}
         library.granular_task_init(c.byref(task))
         settings = [_setting(name, value) for name, value in self.settings().items()]
-        task.filter, task.frames = type(self).__name__.encode(), frames
+        task.filter, task.frames, task.shown = type(self).__name__.encode(), max(1, len(times)), shown
+        task.times = (c.c_double * len(times))(*times) if times else None
         task.settings, task.setting_count = (c.Setting * max(1, len(settings)))(*settings), len(settings)
         task.piece, task.pieces = self.piece
         task.threads = self.values.get("Threads", 0)

@@ -28,6 +28,19 @@ class InputFrames:
     def times(self) -> list[float]:
         return list(self._info.Get(Pipeline.TIME_STEPS()) or ()) if self._info.Has(Pipeline.TIME_STEPS()) else []
 
+    def shared_times(self) -> list[float]:
+        """Returns the times, of which ranks with others would wait for each other. Raises Error if they differ. Collective."""
+        times = self.times()
+        if any(each != times for each in everyone(times)):
+            raise c.Error("expected the time steps of the first process, got others")
+        return times
+
+    def shown_number(self) -> int:
+        """Returns the number of the frame that the data are of; 0 without times."""
+        time = self.time()
+        time = self._shown_time() if time is None else time
+        return 0 if time is None else max(bisect.bisect_right(self.times(), time) - 1, 0)
+
     def data(self) -> Any:
         return self._source.GetOutputDataObject(self._port)
 
@@ -86,6 +99,67 @@ class InputFrames:
         return None
 
 
+class KeptFrames:
+    """Frames of all connected inputs of an algorithm, kept between updates, so that a frame that many updates need is made once. Frames are
+    forgotten when an input has changed. All functions are collective.
+
+    times   of the first input
+    number  that of the shown frame; 0 without times
+    """
+
+    def __init__(self, consumer: Any):
+        self._consumer, self._changed = consumer, None
+        self._kept: dict[float, list[Any]] = {}  # by their times
+        self._asked: dict[int, list[Any]] = {}  # in this update
+
+    def begin(self, piece: tuple[int, int]) -> None:
+        """Begins an update with the frame that is shown. Raises Error if the ranks have different times."""
+        self._piece = piece
+        self._ports = [port for port in range(self._consumer.GetNumberOfInputPorts()) if self._consumer.GetNumberOfInputConnections(port)]
+        changed = piece, [self._consumer.GetInputExecutive(port, 0).GetPipelineMTime() for port in self._ports]
+        if any(everyone(changed != self._changed)):
+            self._kept = {}
+        self._changed = changed
+        shown = [_copy(self._consumer.GetInputDataObject(port, 0)) for port in self._ports]
+        frames = InputFrames(self._consumer, 0, piece)
+        self.times, self.number = frames.shared_times(), frames.shown_number()
+        self._asked, self._last = {self.number: shown}, self.number
+
+    def get(self, number: int) -> list[Any]:
+        """Returns the data of a frame: of the shown one, a kept one, or one that is asked for. Raises Error if an input cannot make it."""
+        self._last = number
+        if number not in self._asked:
+            time = self.times[number]
+            if any(everyone(time not in self._kept)):
+                self._kept[time] = self._read(time)
+            self._asked[number] = self._kept[time]
+        return self._asked[number]
+
+    def end(self, keep_shown: bool) -> None:
+        """Ends an update: keeps the frames that were asked for, and on request the shown one, too."""
+        keep_shown = keep_shown or self._last == self.number
+        self._kept = {self.times[number]: data for number, data in self._asked.items() if self.times and (keep_shown or number != self.number)}
+        self._asked = {}
+
+    def _read(self, time: float) -> list[Any]:
+        inputs = [InputFrames(self._consumer, port, self._piece) for port in self._ports]
+        made = []
+        for frames in inputs:
+            frames.update(time)
+            made.append(_copy(frames.data()))
+        for frames in inputs:
+            frames.restore()
+        return made
+
+
+def _copy(data: Any) -> Any:
+    """Returns a shallow copy: an input may go on to other times."""
+    made = data.NewInstance() if data else None
+    if made:
+        made.ShallowCopy(data)
+    return made
+
+
 def timestep_of(data: Any) -> int | None:
     """Returns the timestep that the field data of a data object tell, if they tell one."""
     array = data.GetFieldData().GetArray("timestep")
@@ -113,7 +187,6 @@ def rows_of_timestep(consumer: Any, port: int, particles: Any, piece: tuple[int,
         frames.update(times[following])
         found = timestep_of(frames.data())
         if found is not None and found <= wanted and (there > wanted or found > there):
-            there, best = found, frames.data().NewInstance()
-            best.ShallowCopy(frames.data())
+            there, best = found, _copy(frames.data())
     frames.restore()
     return best

@@ -25,8 +25,8 @@ class GranularLocalJoin(Filter):
             made.timestep = c.NO_TIMESTEP  # lines of a single time, or none, are those of all times
         return made
 
-    def apply(self, frames: int = 1, split: bool = False) -> list[Table]:
-        return super().apply(frames, self.values["PeriodicLines"] == 1)
+    def apply(self, split: bool = False, **of_frames: Any) -> list[Table]:
+        return super().apply(self.values["PeriodicLines"] == 1, **of_frames)
 
     def fill(self, tables: list[Table], outputs: list[Any]) -> None:
         (table, facts), output = tables, outputs[0]

@@ -3,7 +3,7 @@
 all three."""
 
 #: Sources, filters and extractors.
-PROXIES = ("GranularCompare", "GranularDump", "GranularHistory", "GranularTrajectories")
+PROXIES = ("GranularDump", "GranularHistory", "GranularTrajectories")
 
 #: Properties that are not there.
 PROPERTIES = ("RefreshOnUpdate", "CheckOverlap", "CheckGaps")

@@ -199,7 +199,7 @@ vtkSmartPointer<vtkAbstractArray> TakeTexts(const granular::TableArray& texts, v
 void NameComponents(vtkAbstractArray* array, const granular::ArrayInfo& info,
   const std::vector<granular::ColumnInfo>& columns)
 {
-  if (info.components() == 1 ||
+  if (info.components() == 1 || info.columns.front() < 0 || // that is made of no columns
     (info.components() == 3 && columns[info.columns.front()].name.find('[') == std::string::npos))
   {
     return;

@@ -137,6 +137,12 @@ ChosenCells LocalRows::AddLines(
       cells.Rows.push_back(row);
     }
   }
+  vtkGranularPrivate::AddLines(input, cells.All, output);
+  return cells;
+}
+
+void AddLines(vtkPointSet* input, const std::vector<std::int64_t>& cells, vtkPolyData* output)
+{
   if (!output->GetPoints())
   {
     vtkNew<vtkPoints> points;
@@ -145,7 +151,7 @@ ChosenCells LocalRows::AddLines(
     output->SetLines(vtkNew<vtkCellArray>());
   }
   vtkNew<vtkIdList> corners;
-  for (const std::int64_t cell : cells.All)
+  for (const std::int64_t cell : cells)
   {
     CheckLine(input, cell);
     input->GetCellPoints(cell, corners);
@@ -156,7 +162,6 @@ ChosenCells LocalRows::AddLines(
         output->GetPoints()->InsertNextPoint(input->GetPoint(corner)));
     }
   }
-  return cells;
 }
 
 vtkSmartPointer<vtkDataObject> RowsOfTimestep(vtkAlgorithm* consumer, int port,

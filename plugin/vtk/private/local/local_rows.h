@@ -35,6 +35,11 @@ namespace vtkGranularPrivate
 void CheckLine(vtkDataSet* data, vtkIdType cell);
 
 /**
+ * Adds cells of the input to the lines of the output: each with points of its own, which are doubles. Throws what CheckLine throws.
+ */
+void AddLines(vtkPointSet* input, const std::vector<std::int64_t>& cells, vtkPolyData* output);
+
+/**
  * The cells of some rows: lines that were split have several.
  */
 struct ChosenCells
@@ -81,8 +86,7 @@ public:
     const std::vector<std::int64_t>& cells, vtkDataSetAttributes* to, bool all = false) const;
 
   /**
-   * Adds the lines of some rows, cells of the input, to those of the output: each cell with points of its own, which are
-   * doubles. Throws what FindBegins and CheckLine throw.
+   * Adds the lines of some rows: see the function of this name. Throws what FindBegins and CheckLine throw.
    */
   ChosenCells AddLines(
     vtkPointSet* input, const std::vector<std::int64_t>& rows, vtkPolyData* output) const;
