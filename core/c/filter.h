@@ -151,5 +151,7 @@ Frames apply_contact_sums(FilterTask& task);
 Frames apply_point_average(FilterTask& task);
 Frames apply_euler_average(FilterTask& task);
 Frames apply_compare(FilterTask& task);
+Frames apply_trajectories(FilterTask& task);
+Frames apply_history(FilterTask& task);
 }
 #endif

@@ -41,6 +41,8 @@ constexpr Filter filters[] = {
   { "GranularPointAverage", apply_point_average, average_arrays },
   { "GranularEulerAverage", apply_euler_average, average_arrays },
   { "GranularCompare", apply_compare },
+  { "GranularTrajectories", apply_trajectories },
+  { "GranularHistory", apply_history },
 };
 
 const Filter& find_filter(const std::string& name)
@@ -194,6 +196,7 @@ FilterInput::FilterInput(const granular_content& content)
   {
     timestep = content.timestep;
   }
+  view.header.timestep = timestep.value_or(0);
   const auto ghosts = std::ranges::find(view.arrays, GRANULAR_GHOSTS, &ArrayView::name);
   if (ghosts != view.arrays.end())
   {

@@ -37,6 +37,9 @@ extern "C"
  *                        lines, each with "input_row", the rows of the input (lines: cells) at the shown frame, then those at the other
  *                        frame, which are lost, and the arrays that the filter makes; facts in one row: "of_lines", 1 where lines are in
  *                        place of particles, and "reference", the number of the other frame
+ * GranularTrajectories   inputs: particles, at many frames. Results: the points of the paths; and the paths, first those of one point,
+ *                        with "first_point" and "end_point", the first point of each and the one behind its last
+ * GranularHistory        inputs: particles, at many frames. Results: a row for each frame, of piece 0 alone
  * GranularDecomposition  inputs: particles; for the mode 2, subdomains with lo, hi and, if known, proc. Results: subdomains as above, in
  *                        the coordinates of the points; facts in one row: "imbalance", "outside"
  * GranularContactSums    inputs: particles; contacts between them, and contacts with walls, as rows or lines: one of these at least. Results:

@@ -108,6 +108,7 @@ SOME = """from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 step = given.GetFieldData().GetArray("timestep").GetValue(0)
 ids = vtk_to_numpy(given.GetPointData().GetArray("id")) if given.GetNumberOfPoints() else []
+output.Initialize()
 rows, points = vtkIdList(), vtkPoints()
 for row, id in enumerate(ids):
     if CONDITION:
@@ -170,6 +171,22 @@ FILTERS = [
     ("GranularCompare", {}, {"Input": breaking, "Lines": lambda: breaking_bonds(port=0)}),
     ("GranularCompare", {}, {"Input": lambda: changed(some("step > 0"), LOSE_BOX), "Lines": breaking_lines}),
     ("GranularCompare", {}, {"Input": grains}),
+    ("GranularTrajectories", {}, {"Input": breaking}),
+    ("GranularTrajectories", {"PeriodicLines": "Split", "NumberOfSamples": 0, "Arrays": "*"},
+     {"Input": lambda: some("id % 3 or step % 800 == 0")}),
+    ("GranularTrajectories", {"Tail": 1, "Ids": "1-20, 500"}, {"Input": lambda: breaking(PointOrigin=[1, 2, 3])}),
+    ("GranularTrajectories", {"RegionOfInterest": [0, 9, 1, -1, 1, -1], "TimeWindow": [100, 1200], "FrameStride": 2},
+     {"Input": lambda: breaking(Coordinates="Unwrapped")}),
+    ("GranularTrajectories", {"NumberOfSamples": 3, "SelectionFrame": 9}, {"Input": breaking}),
+    ("GranularTrajectories", {"TimeWindow": [1, 2]}, {"Input": breaking}),
+    ("GranularTrajectories", {"Arrays": "missing"}, {"Input": breaking}),
+    ("GranularTrajectories", {}, {"Input": breaking_lines}),
+    ("GranularHistory", {}, {"Input": breaking}),
+    ("GranularHistory", {"Output": "Statistics", "Arrays": "*", "Quantiles": "0.1, 0.9", "MeanSquareDisplacement": 1},
+     {"Input": lambda: some("step > 0")}),
+    ("GranularHistory", {"Ids": "5 777 10-12", "Arrays": "mass", "MeanSquareDisplacement": 1}, {"Input": breaking}),
+    ("GranularHistory", {"Output": "Statistics", "Quantiles": "2"}, {"Input": breaking}),
+    ("GranularHistory", {"Arrays": "missing", "Output": "Statistics"}, {"Input": breaking}),
     ("GranularDecomposition", {"Bounds": [float("nan"), 1, 0, 1, 0, 1]}, {"Input": grains}),
     ("GranularContactSums", {}, BED),
     ("GranularContactSums", {"Arrays": ALL_SUMS, "LeverArm": "HalfBranch", "MinimumForce": 0.001, "FrictionCoefficient": 0.5}, MOVING),

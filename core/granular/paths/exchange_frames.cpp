@@ -190,19 +190,24 @@ std::vector<std::int64_t> share_out(const std::vector<PathFrame>& frames, Commun
   {
     return {};
   }
-  // the ids of one frame tell well enough
-  Numbers ids;
+  if (frames.empty())
+  {
+    return Numbers(static_cast<std::size_t>(ranks.size() - 1));
+  }
+  // the ids of one frame tell well enough: of that with most particles, wherever these are
+  Numbers counts;
   for (const PathFrame& frame : frames)
   {
-    ids = frame.ids.size() > ids.size() ? frame.ids : ids;
+    counts.push_back(std::ssize(frame.ids));
   }
-  std::sort(ids.begin(), ids.end());
-  Numbers count = { static_cast<std::int64_t>(ids.size()) };
-  ranks.sum(count);
+  ranks.sum(counts);
+  const auto largest = std::ranges::max_element(counts);
+  Numbers ids = frames[static_cast<std::size_t>(largest - counts.begin())].ids;
+  std::ranges::sort(ids);
   Numbers places;
   for (int rank = 1; rank < ranks.size(); ++rank)
   {
-    places.push_back(begin_of_part(count.front(), rank, ranks.size()));
+    places.push_back(begin_of_part(*largest, rank, ranks.size()));
   }
   return find_ids_at(places, ids, ranks);
 }

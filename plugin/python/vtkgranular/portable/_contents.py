@@ -199,6 +199,9 @@ def _expected(data: Any, expected: str) -> c.Error:
 def _content(rows: Rows, count: int) -> Content:
     made = Content(rows.arrays, rows.facts)
     made.rows = count
+    time = rows.facts["time"]
+    if time is not None and time.size == 1 and time.dtype.kind in "iuf":
+        made.time, made.has_time = float(time.ravel()[0]), 1
     made.set_box(box_of(rows.facts))
     return made
 

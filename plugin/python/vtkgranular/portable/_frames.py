@@ -120,7 +120,7 @@ class KeptFrames:
         if any(everyone(changed != self._changed)):
             self._kept = {}
         self._changed = changed
-        shown = [_copy(self._consumer.GetInputDataObject(port, 0)) for port in self._ports]
+        shown = [copy_of(self._consumer.GetInputDataObject(port, 0)) for port in self._ports]
         frames = InputFrames(self._consumer, 0, piece)
         self.times, self.number = frames.shared_times(), frames.shown_number()
         self._asked, self._last = {self.number: shown}, self.number
@@ -146,13 +146,13 @@ class KeptFrames:
         made = []
         for frames in inputs:
             frames.update(time)
-            made.append(_copy(frames.data()))
+            made.append(copy_of(frames.data()))
         for frames in inputs:
             frames.restore()
         return made
 
 
-def _copy(data: Any) -> Any:
+def copy_of(data: Any) -> Any:
     """Returns a shallow copy: an input may go on to other times."""
     made = data.NewInstance() if data else None
     if made:
@@ -187,6 +187,6 @@ def rows_of_timestep(consumer: Any, port: int, particles: Any, piece: tuple[int,
         frames.update(times[following])
         found = timestep_of(frames.data())
         if found is not None and found <= wanted and (there > wanted or found > there):
-            there, best = found, _copy(frames.data())
+            there, best = found, copy_of(frames.data())
     frames.restore()
     return best

@@ -3,7 +3,7 @@
 all three."""
 
 #: Sources, filters and extractors.
-PROXIES = ("GranularDump", "GranularHistory", "GranularTrajectories")
+PROXIES = ("GranularDump",)
 
 #: Properties that are not there.
 PROPERTIES = ("RefreshOnUpdate", "CheckOverlap", "CheckGaps")

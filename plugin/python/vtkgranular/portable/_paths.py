@@ -2,18 +2,20 @@
 """Filters that follow particles and lines through frames."""
 from __future__ import annotations
 
+import bisect
 from typing import Any
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_BIT, VTK_DOUBLE, VTK_FLOAT, vtkAbstractArray, vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_LINE, VTK_POLY_LINE, vtkCellArray, vtkDataSetAttributes
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 from .. import _library as c
 from ._arrays import Table, cells, numbers
 from ._contents import Content, lines_with_points, particles
 from ._filters import Filter
-from ._frames import KeptFrames
+from ._frames import InputFrames, KeptFrames, copy_of
 from ._ranks import everyone, together
 
 
@@ -71,6 +73,79 @@ class GranularCompare(Filter):
                 to.SetActiveAttribute(active.GetName(), kind)
         for array in changed.made:
             to.AddArray(array)
+
+
+class _Paths(Filter):
+    """Base of filters that go through all frames of the input."""
+
+    inputs = (particles,)
+
+    def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
+        if not self.values.get("Tail", 0):  # it is the same at all times
+            for key in (Pipeline.TIME_STEPS(), Pipeline.TIME_RANGE()):
+                outputs.GetInformationObject(0).Remove(key)
+        return super().RequestInformation(request, inputs, outputs)
+
+    def take(self, port: int, frame: int) -> Content | None:
+        if frame == self._number:
+            return particles(self._shown)
+        self._frames.update(self._frames.times()[frame])
+        return particles(self._frames.data())
+
+    def apply(self, split: bool = False, **of_frames: Any) -> list[Table]:
+        self._shown = copy_of(self.data[0])
+        self._frames = InputFrames(self, 0, self.piece_of_inputs(self.piece))
+        times, self._number = self._frames.shared_times(), self._frames.shown_number()
+        try:
+            made = super().apply(split, times=times, shown=self._asked(times))
+            self._frames.restore()
+            return made
+        finally:
+            self._frames.close()
+            del self._shown, self._frames
+
+    def _asked(self, times: list[float]) -> int:
+        """Returns the number of the frame that a tail ends with, or of the shown one."""
+        info = self.GetOutputInformation(0)
+        if not self.values.get("Tail", 0) or not times:
+            return self._number
+        return max(bisect.bisect_right(times, info.Get(Pipeline.UPDATE_TIME_STEP())) - 1, 0) if info.Has(Pipeline.UPDATE_TIME_STEP()) else len(times) - 1
+
+
+class GranularTrajectories(_Paths):
+    ports = ("vtkPolyData",)
+
+    def fill(self, tables: list[Table], outputs: list[Any]) -> None:
+        (points, paths), output = tables, outputs[0]
+        firsts, ends = (vtk_to_numpy(paths.arrays.pop(name)) for name in ("first_point", "end_point"))
+        single = ends - firsts == 1
+        output.SetPoints(points.points)
+        output.SetVerts(_cells_of(firsts[single], ends[single]))
+        output.SetLines(_cells_of(firsts[~single], ends[~single]))
+        for array in paths.arrays.values():
+            output.GetCellData().AddArray(array)
+        for array in points.arrays.values():
+            output.GetPointData().AddArray(array)
+        output.GetPointData().SetActiveScalars("speed")  # the colour that ParaView begins with
+        if points.header.has_box:
+            points.add_header(output.GetFieldData())
+
+
+class GranularHistory(_Paths):
+    ports = ("vtkTable",)
+
+    def fill(self, tables: list[Table], outputs: list[Any]) -> None:
+        for array in tables[0].arrays.values():
+            outputs[0].AddColumn(array)
+
+
+def _cells_of(firsts: Any, ends: Any) -> vtkCellArray:
+    """Returns cells of consecutive points."""
+    made, sizes = vtkCellArray(), ends - firsts
+    if len(sizes):
+        offsets = numpy.concatenate([[0], sizes.cumsum()])
+        made.SetData(numbers(None, offsets), numbers(None, numpy.arange(offsets[-1]) + numpy.repeat(firsts - offsets[:-1], sizes)))
+    return made
 
 
 def _form(array: Any) -> tuple[str, int, int]:
@@ -181,4 +256,4 @@ def _corners(data: Any, chosen: Any) -> tuple[Any, Any]:
     return numpy.array(made, dtype=numpy.int64), numpy.array(counted, dtype=numpy.int64)
 
 
-PATHS = {f"vtk{made.__name__}": made for made in (GranularCompare,)}
+PATHS = {f"vtk{made.__name__}": made for made in (GranularCompare, GranularTrajectories, GranularHistory)}

@@ -3,12 +3,9 @@
 
 #include "private/dump/dump_input.h"
 
-#include "granular/common/words.h"
-#include "granular/geometry/box.h"
 #include "granular/memory/block.h"
 #include "granular/parallel/executor.h"
 #include "granular/parallel/trade.h"
-#include "granular/particles/known_arrays.h"
 
 #include "vtkAlgorithm.h"
 
@@ -48,7 +45,7 @@ PathFrames::PathFrames(
   this->Times = this->Input->GetTimes();
   CheckTimes(this->Times, ranks);
   this->Reader = ReaderFrames::Find(consumer);
-  if (this->Reader && this->Reader->Index->size() != this->GetSize())
+  if (this->Reader && this->Reader->Index->size() != this->size())
   {
     this->Reader.reset();
   }
@@ -65,7 +62,7 @@ PathFrames::PathFrames(
   }
 }
 
-std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>& numbers,
+std::vector<granular::PathFrame> PathFrames::load(const std::vector<std::size_t>& numbers,
   const granular::PathRequest& request, granular::Notices& notices,
   granular::PartialProgress& progress)
 {
@@ -120,7 +117,7 @@ std::vector<granular::PathFrame> PathFrames::Load(const std::vector<std::size_t>
   return frames;
 }
 
-granular::PathFrame PathFrames::LoadPart(std::size_t number, const granular::PathRequest& request,
+granular::PathFrame PathFrames::load_part(std::size_t number, const granular::PathRequest& request,
   granular::Notices& notices, granular::PartialProgress& progress, granular::PathFrame spent)
 {
   if (!this->Reader)
@@ -158,7 +155,7 @@ granular::PathFrame PathFrames::Request(
     });
 }
 
-void PathFrames::NameRows(std::int64_t id, std::size_t number) const
+void PathFrames::name_rows(std::int64_t id, std::size_t number) const
 {
   if (!this->Reader)
   {
@@ -185,152 +182,19 @@ void PathFrames::NameRows(std::int64_t id, std::size_t number) const
 using namespace vtkGranularPrivate;
 
 //------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::PathTask::Choose()
+granular::PathTask vtkGranularPathAlgorithm::PathTask::Choose()
 {
-  this->ReadInput();
-  this->ChooseFrames();
-  this->Request.selection = granular::IdSelection(this->Self->Ids);
-  this->Request.selection.keep_multiples(this->Self->EveryNth);
-  this->ChooseParticles(granular::restricts(this->Self->RegionOfInterest),
-    static_cast<std::size_t>(std::max<vtkTypeInt64>(this->Self->NumberOfSamples, 0)),
-    this->Self->SelectionFrame);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::PathTask::ChooseFew(std::size_t few)
-{
-  const granular::IdSelection all = this->Request.selection;
-  if (this->Self->NumberOfSamples < 0 && all.is_all())
-  {
-    if (this->ChooseParticles(false, few, this->Self->SelectionFrame) == 0)
-    {
-      this->Request.selection = all;
-      this->ChooseParticles(false, few, static_cast<std::int64_t>(this->Frames.GetSize() / 2));
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-/**
- * Reads what the shown frame tells: the origin of the points, and the names that "*" stands for.
- */
-void vtkGranularPathAlgorithm::PathTask::ReadInput()
-{
-  const Particles particles(this->GetInput(0), this->Ranks);
-  const granular::FrameView& view = particles.View;
-  if (view.coordinates != granular::Coordinates::Scaled)
-  {
-    this->Origin = view.point_origin;
-    this->Request.origin = this->Origin;
-  }
-  this->Request.arrays = granular::share_names(this->Self->Arrays, view, this->Ranks);
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::PathTask::ChooseFrames()
-{
-  const std::vector<double>& times = this->Frames.GetTimes();
-  const auto [first, last] = this->Self->TimeWindow;
-  std::size_t count = 0; // in the range
-  for (std::size_t i = 0; i < this->Frames.GetSize(); ++i)
-  {
-    if (first > last || (!times.empty() && times[i] >= first && times[i] <= last))
-    {
-      if (count++ % static_cast<std::size_t>(this->Self->FrameStride) == 0)
-      {
-        this->Numbers.push_back(i);
-      }
-    }
-  }
-  if (this->Numbers.empty())
-  {
-    throw granular::Error("expected a TimeWindow with frames, got none from " +
-      std::to_string(first) + " to " + std::to_string(last));
-  }
-}
-
-//------------------------------------------------------------------------------
-// Returns the number of particles that a frame has of those that are wanted, if it matters.
-std::size_t vtkGranularPathAlgorithm::PathTask::ChooseParticles(
-  bool hasRegion, std::size_t samples, std::int64_t wanted)
-{
-  granular::IdSelection& selection = this->Request.selection;
-  if (!hasRegion && samples == 0)
-  {
-    return 0;
-  }
-  const auto frames = static_cast<std::int64_t>(this->Frames.GetSize());
-  if (wanted >= frames || wanted < -frames)
-  {
-    throw granular::Error("expected a SelectionFrame from " + std::to_string(-frames) + " to " +
-      std::to_string(frames - 1) + ", got " + std::to_string(wanted));
-  }
-  const auto number = static_cast<std::size_t>(wanted < 0 ? wanted + frames : wanted);
-  granular::PathRequest request;
-  request.selection = selection;
-  request.points = hasRegion;
-  request.absolute = true;
-  const granular::PathFrame frame =
-    std::move(this->Frames.Load({ number }, request, this->Notices, this->Progress).front());
-  const std::vector<std::int64_t> ids =
-    hasRegion ? granular::ids_in_region(frame, this->Self->RegionOfInterest) : frame.ids;
-  const std::vector<std::int64_t> chosen = samples > 0
-    ? granular::sample_ids(ids, samples, this->Self->Seed, this->Group)
-    : granular::share_ids(ids, this->Group);
-  selection.keep_only(chosen);
-  return chosen.size();
-}
-
-//------------------------------------------------------------------------------
-void vtkGranularPathAlgorithm::PathTask::NoteAbsent(const std::vector<std::int64_t>& ids)
-{
-  constexpr std::size_t most = 5;
-  const granular::IdSelection& selection = this->Request.selection;
-  std::vector<std::int64_t> named;
-  std::ranges::copy_if(selection.named(), std::back_inserter(named),
-    [&](std::int64_t id) { return selection.holds(id); });
-  std::vector<std::int64_t> found(named.size());
-  std::ranges::transform(named, found.begin(),
-    [&](std::int64_t id) { return std::ranges::binary_search(ids, id) ? 1 : 0; });
-  this->Group.sum(found);
-  std::vector<std::string> absent;
-  for (std::size_t i = 0; i < named.size(); ++i)
-  {
-    if (found[i] == 0)
-    {
-      absent.push_back(std::to_string(named[i]));
-    }
-  }
-  if (const std::size_t count = absent.size(); count > 0)
-  {
-    absent.resize(std::min(count, most));
-    this->Notices.push_back({ {},
-      "ids that are in no frame: " + granular::join_words(absent, ", ") +
-        (count > most ? " and " + std::to_string(count - most) + " others" : "") });
-  }
-}
-
-//------------------------------------------------------------------------------
-std::vector<double> vtkGranularPathAlgorithm::PathTask::GetTimes()
-{
-  const std::vector<double>& all = this->Frames.GetTimes();
-  std::vector<double> times;
-  for (const std::size_t number : this->Numbers)
-  {
-    times.push_back(all.empty() ? 0 : all[number]);
-  }
-  return times;
-}
-
-//------------------------------------------------------------------------------
-granular::Paths vtkGranularPathAlgorithm::PathTask::Join(
-  std::vector<granular::PathFrame> frames, bool crossings)
-{
-  granular::PathJoin join;
-  join.origin = this->Origin;
-  join.frames_origin = this->Origin;
-  join.crossings = crossings;
-  join.name_rows = [this](std::int64_t id, std::size_t frame)
-  { this->Frames.NameRows(id, this->Numbers[frame]); };
-  return granular::join_frames(std::move(frames), join, this->Group, this->Notices, this->Progress);
+  granular::PathChoice choice;
+  choice.ids = this->Self->Ids;
+  choice.every_nth = this->Self->EveryNth;
+  choice.samples = this->Self->NumberOfSamples;
+  choice.seed = this->Self->Seed;
+  std::copy_n(this->Self->RegionOfInterest, choice.region.size(), choice.region.begin());
+  choice.selection_frame = this->Self->SelectionFrame;
+  std::copy_n(this->Self->TimeWindow, 2, choice.window.begin());
+  choice.stride = this->Self->FrameStride;
+  choice.arrays = this->Self->Arrays;
+  const Particles shown(this->GetInput(0), this->Ranks);
+  return { this->Frames, choice, shown.View, this->Group, this->Ranks, this->Notices,
+    this->Progress };
 }
