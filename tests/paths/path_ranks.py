@@ -16,7 +16,7 @@ from stopping import stopped
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 RUNS = [(["grains.dump"], "v radius", {}), (["paths/walk.dump.gz"], "*", {}), (["local/chain.dump"], "mol v", {}),
         (["ortho_unwrapped.dump"], "", {"Coordinates": "Unwrapped"}), (["tri_000000.dump.gz", "tri_000050.dump.gz"], "", {})]
-CHOICES = [{}, {"Ids": "3"}, {"EveryNth": 7, "FrameStride": 2}, {"NumberOfSamples": 12, "Seed": 4}, {"Ids": "-1"},
+CHOICES = [{"NumberOfSamples": 0}, {"Ids": "3"}, {"EveryNth": 7, "FrameStride": 2}, {"NumberOfSamples": 12, "Seed": 4}, {"Ids": "-1"},
            {"RegionOfInterest": [1, -1, 1, -1, -100, 1]}]
 MORE = [{}, {"PeriodicLines": 1}, {"Tail": 1}]
 FORMS = {"Absolute": 0, "Unwrapped": 1}
@@ -141,7 +141,8 @@ for name, said in (("repeated.dump", "got id 17 in rows 16 and 200 of timestep 1
     reader = GranularDumpReader(FileNames=[os.path.abspath(name)])
     through = Calculator(Input=reader, Function="1", ResultArrayName="one")
     for source in (reader, through):
-        for kind, properties in ((GranularTrajectories, {}), (GranularHistory, {}), (GranularTrajectories, {"Ids": "10-20"}),
+        every = {"NumberOfSamples": 0}
+        for kind, properties in ((GranularTrajectories, every), (GranularHistory, every), (GranularTrajectories, {"Ids": "10-20"}),
                                  (GranularHistory, {"Output": 1, "MeanSquareDisplacement": 1}), (GranularHistory, {"Output": 1})):
             proxy = kind(Input=source, **properties)
             proxy.UpdatePipeline(0)
