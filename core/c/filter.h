@@ -53,7 +53,7 @@ public:
     return otherwise;
   }
 
-  std::vector<double> list(const char* name); ///< of any length
+  std::vector<double> list(const char* name);                               ///< of any length
   granular::ArrayChoice arrays(std::span<const granular::MadeArray> known); ///< that are to be made
 
   /// Throws ArgumentError for a setting that no function asked for.

@@ -7,6 +7,7 @@ import sys
 import numpy
 import vtkgranular
 from discs import Camera
+from paraview.simple import GetParaViewVersion
 from window import PIXELS, Window, drawn, picture, read
 
 WINDOW = sys.argv[1]
