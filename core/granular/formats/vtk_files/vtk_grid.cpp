@@ -16,7 +16,10 @@ constexpr std::int64_t points_a_cell = corners_of_voxel;
 
 const VtkGridReader::Section VtkGridReader::sections[] = {
   { vtk_points, "POINTS", &VtkGridReader::read_points },
-  { vtk_points, "VERTICES", &VtkGridReader::read_vertices, true },
+  { vtk_points, "VERTICES", &VtkGridReader::read_parts, true },
+  { vtk_points, "LINES", &VtkGridReader::read_parts, true, true },
+  { vtk_points, "POLYGONS", &VtkGridReader::read_parts, true, true },
+  { vtk_points, "TRIANGLE_STRIPS", &VtkGridReader::read_parts, true, true },
   { vtk_rectilinear, "DIMENSIONS", &VtkGridReader::read_dimensions },
   { vtk_rectilinear, "X_COORDINATES", &VtkGridReader::read_coordinates },
   { vtk_rectilinear, "Y_COORDINATES", &VtkGridReader::read_coordinates },
@@ -32,7 +35,7 @@ void VtkGridReader::read(
   grid_.header = file_.read_header();
   const std::string& kind = grid_.header.dataset;
   const std::string expected = "DATASET " + join_words(kinds.first(kinds.size() - 1), ", ") +
-    " or " + std::string(kinds.back());
+    (kinds.size() > 1 ? " or " : "") + std::string(kinds.back());
   if (kind.empty())
   {
     file_.fail_missing(expected, cause);
@@ -85,7 +88,10 @@ bool VtkGridReader::read_section()
 {
   const auto* const section = std::ranges::find_if(sections,
     [this](const Section& each)
-    { return each.dataset == grid_.header.dataset && file_.is(each.keyword); });
+    {
+      return each.dataset == grid_.header.dataset && file_.is(each.keyword) &&
+        (surfaces_ || !each.is_surface);
+    });
   if (section == std::end(sections))
   {
     return false;
@@ -105,7 +111,7 @@ void VtkGridReader::end_sections(bool at_end)
 {
   for (std::size_t i = 0; i < std::size(sections); ++i)
   {
-    const auto& [dataset, keyword, read, optional] = sections[i];
+    const auto& [dataset, keyword, read, optional, is_surface] = sections[i];
     if (dataset == grid_.header.dataset && !optional && (seen_ >> i & 1) == 0)
     {
       at_end ? file_.fail_missing(keyword) : file_.fail(keyword, file_.words().front());
@@ -132,24 +138,30 @@ void VtkGridReader::read_points()
 }
 
 /// Values are of points: what the vertices are does not matter, as long as there is nothing wrong with them.
-void VtkGridReader::read_vertices()
+void VtkGridReader::read_parts()
 {
+  constexpr std::string_view keywords[] = { "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS" };
+  const auto* const keyword =
+    std::ranges::find_if(keywords, [this](std::string_view word) { return file_.is(word); });
   const std::int64_t first = file_.count(1);
   const std::int64_t second = file_.count(2);
-  const VtkCells vertices = file_.cells(keep_);
+  VtkCells cells = file_.cells(surfaces_ ? check_ : keep_);
+  const bool are_vertices = keyword == std::begin(keywords);
   grid_.has_vertices =
-    vertices.counted ? second / 2 == first && second % 2 == 0 : second == vertices.size;
-  const auto& numbers = vertices.connectivity;
+    are_vertices && (cells.counted ? second / 2 == first && second % 2 == 0 : second == cells.size);
+  const auto& numbers = cells.connectivity;
   const auto other = std::ranges::find_if(
     numbers, [this](std::int64_t number) { return number < 0 || number >= grid_.cells; });
   if (other != numbers.end())
   {
-    const auto after = std::ranges::upper_bound(vertices.offsets, other - numbers.begin());
-    const std::int64_t vertex = after - vertices.offsets.begin() - 1;
-    throw FormatError("expected points from 0 to " + std::to_string(grid_.cells - 1) +
-        " in vertex " + std::to_string(vertex) + ", got " + std::to_string(*other),
-      file_.where_of(vertices, vertex));
+    const auto after = std::ranges::upper_bound(cells.offsets, other - numbers.begin());
+    const std::int64_t cell = after - cells.offsets.begin() - 1;
+    throw FormatError("expected points from 0 to " + std::to_string(grid_.cells - 1) + " in " +
+        (are_vertices ? "vertex " : "cell ") + std::to_string(cell) + ", got " +
+        std::to_string(*other),
+      file_.where_of(cells, cell));
   }
+  grid_.parts[static_cast<std::size_t>(keyword - std::begin(keywords))] = std::move(cells);
 }
 
 void VtkGridReader::read_dimensions()

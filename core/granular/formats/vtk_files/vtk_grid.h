@@ -40,7 +40,8 @@ struct VtkGrid
   VtkHeader header;
   std::int64_t cells = 0; ///< of POLYDATA points
   std::vector<double> points;
-  bool has_vertices = false; ///< of one point each
+  bool has_vertices = false;     ///< of one point each
+  std::array<VtkCells, 4> parts; ///< VERTICES, LINES, POLYGONS, TRIANGLE_STRIPS
 
   std::array<std::int64_t, 3> dimensions = {}; ///< as DIMENSIONS says
   VtkPlace dimensions_place;
@@ -64,12 +65,15 @@ public:
     const std::string& cause = "");
 
 protected:
-  /// keep: store the numbers. check: read the types of cells, which must be voxels or hexahedra.
-  VtkGridReader(LegacyVtk& file, VtkGrid& grid, bool keep, bool check) noexcept
+  /// keep: store the numbers. check: read the types of cells, which must be voxels or hexahedra, and of
+  /// surfaces the cells. surfaces: POLYDATA may have other parts than vertices.
+  VtkGridReader(
+    LegacyVtk& file, VtkGrid& grid, bool keep, bool check, bool surfaces = false) noexcept
     : file_(file)
     , keep_(keep)
-    , grid_(grid)
     , check_(check)
+    , surfaces_(surfaces)
+    , grid_(grid)
   {
   }
 
@@ -84,12 +88,14 @@ protected:
 
   LegacyVtk& file_;
   bool keep_;
+  bool check_;
+  bool surfaces_;
   bool of_cells_ = false; ///< the data at hand
   bool is_data_ = false;  ///< these are of the cells, or of the points where these stand for cells
 
 private:
   void read_points();
-  void read_vertices();
+  void read_parts();
   void read_dimensions();
   void read_coordinates();
   void read_cells();
@@ -101,6 +107,7 @@ private:
     const char* keyword;
     void (VtkGridReader::*read)();
     bool optional = false;
+    bool is_surface = false;
   };
   static const Section sections[];
 
@@ -109,7 +116,6 @@ private:
   void end_sections(bool at_end);
 
   VtkGrid& grid_;
-  bool check_;
   std::int64_t tuples_ = 0; ///< of the arrays at hand
   std::uint32_t seen_ = 0;  ///< a bit each
   std::int64_t types_ = 0;
