@@ -68,7 +68,7 @@ ROOMS = {room: words.split() for room, words in (
     ("formats/dump/read", "common columns numbers bytes memory geometry parallel text frames particles sorting "
                           "formats/dump/grammar"),
     ("formats/dump/write", "common numbers bytes geometry parallel frames particles sorting writing"),
-    ("formats/vtk_files", "common numbers bytes geometry"),
+    ("formats/vtk_files", "common numbers bytes geometry frames"),
     ("formats/local", "common columns numbers bytes memory geometry parallel text frames particles lines "
                       "formats/dump/grammar formats/dump/read"),
     ("formats/data_file", "common columns numbers bytes memory geometry parallel text frames particles sorting lines "

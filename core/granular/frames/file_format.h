@@ -49,6 +49,7 @@ struct FileFormat
   std::vector<std::int64_t> (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
 
   bool reads_vtk = false; ///< says itself which VTK files it cannot read
+  bool reads_all = false; ///< says itself of all files, which are not looked at before
   bool large_runs =
     false; ///< of so many or large files that several ranks look through them together
 };

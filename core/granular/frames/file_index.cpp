@@ -103,7 +103,7 @@ void update(FileIndex& index, const std::vector<std::string>& column_names, Prog
   const std::unique_ptr<ByteSource> source = unpack(std::move(packed), index.points);
   const std::size_t known = index.notices.size();
   index.compressed = source->compressed();
-  if (index.frames.empty())
+  if (index.frames.empty() && !index.format->reads_all)
   {
     refuse_other(*source, index.format->name, index.format->reads_vtk, !index.column_names.empty());
   }
