@@ -37,7 +37,7 @@ without ParaView (GRANULAR_PARAVIEW=OFF) or the core alone (GRANULAR_BUILD_PLUGI
 else()
   # VTK 9.4 and later link an optional module only if it is asked for here.
   granular_find(VTK 9.1
-    "CommonCore;CommonDataModel;CommonExecutionModel;CommonMisc;IOCore;IOXML;ParallelCore;OPTIONAL_COMPONENTS;ParallelMPI"
+    "CommonCore;CommonDataModel;CommonExecutionModel;CommonMisc;FiltersCore;IOCore;IOGeometry;IOLegacy;IOPLY;IOXML;ParallelCore;OPTIONAL_COMPONENTS;ParallelMPI"
     "install its development files (Debian: libvtk9-dev python3-vtk9), set VTK_DIR, or build the core alone \
 (GRANULAR_BUILD_PLUGIN=OFF, preset core-only).")
 endif()

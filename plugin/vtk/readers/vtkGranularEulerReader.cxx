@@ -165,10 +165,14 @@ struct vtkGranularEulerReader::Internals : vtkGranularSeriesReader::Internals
   {
   }
 
-  const granular::Kind& FindKind() const override
+  const granular::Kind& FindKind() override
   {
-    const bool isGrid = !this->FileNames.empty() && granular::is_grid_file(this->FileNames.front());
-    return isGrid ? granular::grid_kind : granular::euler_kind;
+    return granular::kind_of_first(this->GetRanks(),
+      [this]() -> const granular::Kind&
+      {
+        return granular::is_grid_file(this->FileNames.front()) ? granular::grid_kind
+                                                               : granular::euler_kind;
+      });
   }
 
   std::string GetLookKey() const override { return std::to_string(this->Reader->OutputType); }

@@ -70,9 +70,7 @@ void vtkGranularSeriesReader::Internals::Update()
     this->Told.clear();
     this->IndexedNames = this->FileNames;
   }
-  const granular::Kind& kind =
-    granular::kind_of_first(ranks, [this]() -> const granular::Kind& { return this->FindKind(); });
-  if (&kind != &this->Run.kind())
+  if (const granular::Kind& kind = this->FindKind(); &kind != &this->Run.kind())
   {
     this->Run = granular::Run(kind);
   }

@@ -59,9 +59,9 @@ struct vtkGranularSeriesReader::Internals
   virtual void SetOptions(granular::RunOptions&) const {}
 
   /**
-   * Returns the kind of the files, for readers of several. Called on the first rank.
+   * Returns the kind of the files, for readers of several. Collective.
    */
-  virtual const granular::Kind& FindKind() const { return this->Run.kind(); }
+  virtual const granular::Kind& FindKind() { return this->Run.kind(); }
 
   /**
    * Sets what is asked of a frame by properties of the reader. Throws Error.
