@@ -32,7 +32,8 @@ constexpr const char* ParticleFilters[] = { "Calculator", "Clip", "ExtractSelect
 bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
 {
   const std::string name = source->GetXMLName() ? source->GetXMLName() : "";
-  const bool reader = source->IsA("vtkSMGranularParticleReaderProxy");
+  const bool reader =
+    source->IsA("vtkSMGranularParticleReaderProxy") || name == "GranularVTKParticleReader";
   return (reader && port == 0) ||
     std::ranges::find(ParticleFilters, name) != std::end(ParticleFilters);
 }

@@ -136,7 +136,7 @@ contacts = Read(good("all.dump"))
 assert len(contacts.said) == 1 and "no preset has as many" in contacts.said[0] and "name the particles in ColumnMap" in contacts.said[0]
 assert (contacts.column("c_fa") == rows).all()
 broken = Read(good("broken.txt"), ColumnMap="time id1 id2")  # rows alone, of which the names say whose they are
-assert _find_reader(good("broken.txt"), "time id1 id2") == "GranularLocalReader"
+assert _find_reader([good("broken.txt")], "time id1 id2") == "GranularLocalReader"
 assert len(broken.said) == 1 and "no header" in broken.said[0] and broken.column("id2").tolist() == [5471, 1931, 1815, 1816]
 label = Read(good("label.dump"), ColumnMap="id1=2 id2=3")
 assert label.said == [] and label.rows.GetNumberOfRows() == 32

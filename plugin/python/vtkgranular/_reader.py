@@ -14,6 +14,9 @@ from ._options import READERS
 from ._plugin import expect_plugin, has_plugin
 from ._run import open as open_run
 
+#: Files of VTK and of surfaces, which the reader of meshes takes if no other does.
+_MESHES = {".vtk", ".vtp", ".vtu", ".vti", ".vtr", ".vts", ".vtm", ".pvtp", ".pvtu", ".pvti", ".pvtr", ".pvts", ".stl", ".ply"}
+
 
 def _names(paths: Iterable[str], remote: bool) -> list[str]:
     """The names of the files; a server's are taken as they are."""
@@ -32,15 +35,23 @@ def _names(paths: Iterable[str], remote: bool) -> list[str]:
     return [expect_utf8(name) for name in names]
 
 
-def _find_reader(name: str, column_map: Any) -> str:
-    """The reader that recognises a file by its first bytes, or, where it has no header, by the names of its columns."""
+def _find_reader(names: list[str], column_map: Any) -> str:
+    """The reader that recognises a file by its contents, or, where it has no header, by the names of its columns.
+
+    The first VTK file of a run may be empty, and then the last one tells.
+    """
     from paraview import servermanager
 
-    for reader in READERS:
+    name = names[0]
+    is_mesh = os.path.splitext(name.removesuffix(".gz").removesuffix(".zst"))[1].lower() in _MESHES
+    more = [("GranularVTKParticleReader", each) for each in (name, names[-1]) if is_mesh]
+    for reader, file in [*((reader, name) for reader in READERS), *more]:
         # not by NewProxy of the proxy manager, whose result Python never frees
-        proxy = getattr(servermanager.sources, reader)(no_update=True)
-        if servermanager.vtkSMReaderFactory.CanReadFile(name, proxy.SMProxy):
+        make = getattr(servermanager.sources, reader, None)  # the portable plugin has no readers of VTK files
+        if make and servermanager.vtkSMReaderFactory.CanReadFile(file, make(no_update=True).SMProxy):
             return reader
+    if is_mesh and hasattr(servermanager.sources, "GranularMeshReader"):
+        return "GranularMeshReader"
     if column_map and os.path.exists(name):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # the reader says the same
@@ -56,8 +67,8 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     The first reader with times sets the animation: it plays these times, and SaveAnimation writes a picture for each.
 
     paths       a file, a pattern as the `dump` command has it (see vtkgranular.files), or a list of these: the files of one
-                run. Particle dumps, contacts and bonds, restart files, data files, decompositions and Euler cells are told
-                apart by their contents.
+                run. Particle dumps, contacts and bonds, restart files, data files, decompositions, Euler cells, and particles in
+                VTK files are told apart by their contents; other VTK, STL and PLY files are walls.
     dt          the time of one timestep, greater than 0, in the unit of the run. None: timesteps, unless the files hold times
     properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
 
@@ -71,7 +82,7 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else paths
     connection = servermanager.ActiveConnection
     names = _names([os.fsdecode(path) for path in given], connection is not None and connection.IsRemote())
-    kind = _find_reader(names[0], properties.get("ColumnMap"))
+    kind = _find_reader(names, properties.get("ColumnMap"))
     if kind == "GranularRestartReader" and len(names) > 1:
         bases = [name for name in names if "base" in os.path.basename(name)]
         names = bases or names  # the files of the other ranks are found beside them

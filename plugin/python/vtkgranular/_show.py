@@ -101,11 +101,27 @@ def _show_output(source: Any, name: str, view: Any, **properties: Any) -> None:
                      (": GranularLocalJoin draws the bonds of another file" if name == "Bonds" else ""))
 
 
+def _show_mesh(source: Any, view: Any, color: str | None, legend: bool) -> Any:
+    """Shows walls and contacts as surfaces and lines."""
+    from paraview import simple
+
+    display = simple.Show(source, view)
+    if color is not None:
+        kinds = [kind for kind, data in (("CELLS", source.CellData), ("POINTS", source.PointData)) if data[color]]
+        if not kinds:
+            names = ", ".join(sorted([*source.CellData.keys(), *source.PointData.keys()]))
+            raise ValueError(f"expected an array to colour by, of {names}, got '{color}'")
+        simple.ColorBy(display, (kinds[0], color))
+        display.SetScalarBarVisibility(view, legend)
+    return display
+
+
 def show(reader: Any, view: Any = None, radius: str | float = "radius", color: str | None = None, box: bool = False,
          bonds: bool = False, legend: bool = False) -> Any:
     """Shows particles as spheres and returns their display.
 
-    reader  a GranularDumpReader, or any source or filter whose first output has points.
+    reader  a GranularDumpReader, or any source or filter whose first output has points. Walls and contacts of a GranularMeshReader are
+            shown as surfaces and lines, coloured by cells or points.
     view    a render view; by default the active one, or a new one.
     radius  name of the point array with the radii, in the unit of the points, or one number for all.
             Ellipsoids and superquadrics have the sizes of their own arrays instead. Where there is no such array, and where the points
@@ -125,6 +141,8 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
 
     view = view or simple.GetActiveViewOrCreate("RenderView")
     expect_display(view)
+    if any(each.GetXMLName() == "GranularMeshReader" for each in upstream(reader)):
+        return _show_mesh(reader, view, color, legend)
     display = simple.Show(reader, view)
     expect_plugin("Grains" in display.GetProperty("Representation").Available)
     display.SetRepresentationType("Grains")
