@@ -45,8 +45,8 @@ public:
   ///@}
 
   /**
-   * Returns 1 if the file holds particles: points with an array `id`, no lines or polygons, and a number in its name or the title of LIGGGHTS
-   * or LAMMPS. A file without points is one if that of its box is there. Never fails.
+   * Returns 1 if the file holds particles: points with an array `id`, no lines or polygons, and the title of LIGGGHTS or LAMMPS, the file of
+   * their box, or in XML a number in the name. A file without points is one if that of its box is there. Never fails.
    */
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 

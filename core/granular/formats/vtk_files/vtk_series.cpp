@@ -76,11 +76,16 @@ bool is_legacy_particles(const ByteSource& source)
 {
   Progress progress;
   LegacyVtk file(source, {}, LegacyVtk::no_end, progress);
+  const VtkHeader header = file.read_header();
+  const bool has_box = !find_box_file(source.path()).empty();
+  if (header.dataset != vtk_points || !(has_box || is_title(header.title)))
+  {
+    return false; // large files of others are not read
+  }
+  file.go_to(header.place);
   const VtkSurface points = read_surface(file, SurfaceRead::None);
-  const bool has_cells = points.part_cells() > points.parts[0].size;
-  const bool is_of_run = has_number(source.path()) || is_title(points.header.title);
-  return is_of_run && !has_cells &&
-    (points.cells > 0 ? points.has("id") : !find_box_file(source.path()).empty());
+  return points.part_cells() == points.parts[0].size &&
+    (points.cells > 0 ? points.has("id") : has_box);
 }
 
 /// The first array is `id`, of points without polygons; of blocks one is the box.

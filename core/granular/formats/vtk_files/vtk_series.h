@@ -12,8 +12,9 @@ namespace granular
 /// Files of one timestep whose names differ in a rank are pieces.
 const FileFormat& vtk_format() noexcept;
 
-/// Returns true for the particles of `dump custom/vtk`, `custom/vtm` (LIGGGHTS) and `dump vtk` (LAMMPS): points with an array id, no cells
-/// but vertices, and a number in the name or the title of these programs. A file without points is one if its box is there.
+/// Returns true for the particles of `dump custom/vtk`, `custom/vtm` (LIGGGHTS) and `dump vtk` (LAMMPS): points with an array id and no
+/// cells but vertices. Legacy files must have the title of these programs, or their box beside them, which tells alone where there are no
+/// points; XML files a number in the name.
 bool is_vtk_particles(const std::string& path) noexcept;
 
 /// Returns true for other legacy VTK and STL files with a number in the name and the title of these programs.

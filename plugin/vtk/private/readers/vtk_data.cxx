@@ -273,7 +273,7 @@ void FillVtkParticles(vtkPolyData* output, vtkPointSet* from, vtkIdType first, v
   {
     auto made = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
     auto* const numbers = vtkAOSDataArrayTemplate<int>::FastDownCast(array);
-    if (numbers && numbers->GetName() == std::string("id"))
+    if (numbers && array == from->GetPointData()->GetAbstractArray("id"))
     {
       made = ArrayOf<vtkTypeInt64Array>(
         "id", std::span(numbers->GetPointer(first), static_cast<std::size_t>(last - first)));
