@@ -2,8 +2,8 @@
 """What only the compiled plugin has, by the names in xml. docs/guide/portable.md says what to do instead; tests/lint/portable.py compares
 all three."""
 
-#: Sources, filters and extractors.
-PROXIES = ("GranularDump",)
+#: Readers, sources, filters and extractors.
+PROXIES = ("GranularDump", "GranularMeshReader", "GranularVTKParticleReader")
 
 #: Properties that are not there.
 PROPERTIES = ("RefreshOnUpdate", "CheckOverlap", "CheckGaps")
