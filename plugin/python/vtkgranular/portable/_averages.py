@@ -2,7 +2,7 @@
 """Sums and averages of particles and their contacts."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Sequence
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -159,7 +159,7 @@ class GranularEulerAverage(_Average):
             vtkExtentTranslator().PieceToExtentThreadSafe(*piece_of(info), ghosts, list(whole), asked, vtkExtentTranslator.BLOCK_MODE, 0)
         return tuple(asked)
 
-    def apply(self, frames: int = 1, split: bool = False) -> list[Table]:
+    def apply(self, split: bool = False, times: Sequence[float] = (), shown: int = 0) -> list[Table]:
         self._extra = {"CellRange": self._extent} if self.values["Output"] == _IMAGE else {}
         try:
             if not self.values["TimeAverage"]:
@@ -168,7 +168,7 @@ class GranularEulerAverage(_Average):
             self._times = self._frames[0].times()
             if any(times != self._times for times in everyone(self._times)):
                 raise c.Error("expected the time steps of the first process, got others")
-            return super().apply(max(len(self._times), 1))
+            return super().apply(times=self._times)
         finally:
             for one in self._frames.values():
                 one.close()
