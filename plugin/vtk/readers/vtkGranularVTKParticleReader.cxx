@@ -89,7 +89,7 @@ void vtkGranularVTKParticleReader::Internals::Show(Shown& shown)
   }
   if (found && shown.Piece.Piece == 0)
   {
-    FillBox(box, header.box, granular::Coordinates::Absolute, {});
+    vtkGranularPrivate::FillBox(box, header.box, granular::Coordinates::Absolute, {});
   }
   FillHeader(particles->GetFieldData(), header, granular::Coordinates::Absolute, {});
   FillHeader(box->GetFieldData(), header, granular::Coordinates::Absolute, {});
