@@ -599,7 +599,7 @@ TEST(CInterface, ReadsTheContentOfAPackedFileAsFarAsItGoes)
 {
   const std::string packed = content(good("tri_000050.dump.gz"));
   const std::string path = std::string(GRANULAR_OUTPUT) + "/content.gz";
-  for (const std::size_t cut : { 0, 100 })
+  for (const std::size_t cut : { std::size_t{ 0 }, std::size_t{ 100 } })
   {
     std::ofstream(path, std::ios::binary) << packed.substr(0, packed.size() - cut);
     granular_bytes* bytes = nullptr;
