@@ -476,7 +476,7 @@ TEST(CInterface, NoticesAndProgressReachTheCaller)
     mine->fractions.push_back(fraction);
     return static_cast<int>(mine->fractions.size()) > mine->stop_after ? 1 : 0;
   };
-  const RunHandle run = open_run(good("local/contacts.dump"));
+  const RunHandle run = open_run(good("local/chain_bonds.dump"));
   read_frame(run, -1, &request);
   ASSERT_FALSE(seen.fractions.empty());
   EXPECT_TRUE(std::ranges::is_sorted(seen.fractions));

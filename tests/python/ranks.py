@@ -121,12 +121,12 @@ assert (numpy.concatenate((one["id"], two["id"])) == vg.open(good("grains.dump")
 kinds = {"grains.dump": "dump", "local/contacts.dump": "local", "data_file/full.data": "data", "decomposition_1000.vtk": "decomposition"}
 assert {name: vg.kind_of(good(name)) for name in kinds} == kinds
 assert vg.kind_of(__file__) is vg.kind_of("no_such.dump") is None
-contacts = vg.open(good("local/contacts.dump"))
+contacts = vg.open(good("local/chain_bonds.dump"))
 with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter("always")
-    assert contacts[-1].read().row_label == "ENTRIES"
+    assert contacts[-1].read().row_label == "BONDS"
 remark = told[0].message
-assert isinstance(remark, vg.Remark) and remark.path == good("local/contacts.dump") and str(remark).startswith(f"{remark.path}:{remark.line}: ")
+assert isinstance(remark, vg.Remark) and remark.path == good("local/chain_bonds.dump") and str(remark).startswith(f"{remark.path}:{remark.line}: ")
 assert {column.name: column.columns for column in contacts.columns}["force"] == ("forcex", "forcey", "forcez")
 assert vg.open(good("shapes/superellipsoids.dump"))[0].shape_sizes == "diameters"
 print("ranks get together what one process gets")

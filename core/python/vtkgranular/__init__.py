@@ -20,9 +20,6 @@ Open, show, fetch and save with paraview.simple:
     vtkgranular.save(filter, "run.dump")         a file of the format that fits the data and the name
     vtkgranular.film(view, "run.avi")            a film, or pictures, of all frames
     vtkgranular.update(filter, time=0.02)        an update that raises its errors
-
-Around them:
-
     vtkgranular.load_plugin()                    loads the plugin into paraview.simple
     vtkgranular.files("post/*.%.dump.gz")        the names of the files of a run
     vtkgranular.load_state("run.pvsm")           a state file, also after its folder was moved
