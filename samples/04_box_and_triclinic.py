@@ -30,7 +30,7 @@ for place, form, radius in (1, "Scaled", 0.036), (5, "Absolute", 0.3), (6, "Unwr
     Show(OutputPort(reader, 1), view, LineWidth=2)
     Show(Text(Text=form), view, WindowLocation="Upper Center", FontSize=20)
     ResetCamera(view)
-GetColorTransferFunction("image").RGBPoints = [0, 0.55, 0.66, 0.78, 1, 0.93, 0.45, 0.1]
+vg.set_properties(GetColorTransferFunction("image"), ColorSpace="Diverging", RGBPoints=[0, 0.55, 0.66, 0.78, 1, 0.93, 0.45, 0.1])
 strip.SetSize(1200, 420)
 SaveScreenshot("forms.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 

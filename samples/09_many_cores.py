@@ -45,7 +45,9 @@ def look(file, threads, picture):
     view = GetActiveViewOrCreate("RenderView")
     vg.set_properties(view, ViewSize=[640, 360], ViewTime=times[-1], OrientationAxesVisibility=0)
     vg.show(reader, view, color="v")
-    GetColorTransferFunction("v").RescaleTransferFunction(0, 1.5)
+    colors = GetColorTransferFunction("v")
+    colors.ApplyPreset(vg.preset("Cool to Warm"))
+    colors.RescaleTransferFunction(0, 1.5)
     Render(view)  # the first picture moves the camera
     vg.set_properties(view, CameraPosition=[0.35, -0.75, 0.65], CameraFocalPoint=[0.35, 0.25, 0])
     SaveScreenshot(picture, view, OverrideColorPalette="WhiteBackground")

@@ -36,7 +36,7 @@ for place, (name, source) in zip((1, 2), sources.items()):
     vg.show(source, view, color="radius")
     Show(OutputPort(source, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     Show(Text(Text=name), view, WindowLocation="Upper Center", FontSize=18)
-GetColorTransferFunction("radius").RGBPoints = [0.0025, 0.27, 0.45, 0.7, 0.004, 0.95, 0.6, 0.2]
+vg.set_properties(GetColorTransferFunction("radius"), ColorSpace="Diverging", RGBPoints=[0.0025, 0.27, 0.45, 0.7, 0.004, 0.95, 0.6, 0.2])
 strip.SetSize(1000, 600)
 SaveScreenshot("packings.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")
 

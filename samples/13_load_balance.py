@@ -27,6 +27,7 @@ for place, step in zip((1, 5, 13, 14), (1000, 2000, 3000, 4000)):
     vg.set_properties(view, CameraPosition=[0.25, -0.39, 0.19], CameraFocalPoint=[0, 0, 0.06],
                       CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("nlocal")
+colors.ApplyPreset(vg.preset("Cool to Warm"))
 colors.RescaleTransferFunction(0, 600)
 vg.set_properties(GetScalarBar(colors, view), Title="particles per rank", ComponentTitle="",
                   WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.6,

@@ -28,9 +28,11 @@ for place, text in ((1, "particles"), (5, "volume fraction"), (6, "where it is 0
     Show(OutputPort(particles, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)
     views.append(view)
 vg.show(particles, views[0], color="radius").SetScalarBarVisibility(views[0], False)
+GetColorTransferFunction("radius").ApplyPreset(vg.preset("Cool to Warm"))
 shown = Show(middle, views[1], Ambient=1, Diffuse=0)
 ColorBy(shown, ("POINTS", "volumefraction"))
 colors = GetColorTransferFunction("volumefraction")
+colors.ApplyPreset(vg.preset("Cool to Warm"))
 colors.RescaleTransferFunction(0, 0.6)
 vg.set_properties(GetScalarBar(colors, views[1]), Title="", ComponentTitle="", HorizontalTitle=1,
                   WindowLocation="Any Location", Position=[0.86, 0.25], ScalarBarLength=0.5,

@@ -76,6 +76,7 @@ for place, (text, proxy) in zip((1, 2), {"LIGGGHTS": files, "from the dump": ave
     vg.set_properties(view, CameraPosition=[0.22, -0.36, 0.19], CameraFocalPoint=[0, 0, 0.066],
                       CameraViewUp=[0, 0, 1])
 colors = GetColorTransferFunction("volumefraction")
+colors.ApplyPreset(vg.preset("Cool to Warm"))
 colors.RescaleTransferFunction(0, 0.25)
 vg.set_properties(GetScalarBar(colors, view), Title="volume fraction", ComponentTitle="",
                   WindowLocation="Lower Center", Orientation="Horizontal", ScalarBarLength=0.5,

@@ -22,6 +22,7 @@ grey = vg.show(particles, view)
 vg.set_properties(grey, AmbientColor=[0.6] * 3, DiffuseColor=[0.6] * 3, Opacity=0.1)
 shown = Show(chains, view)
 ColorBy(shown, ("POINTS", "strength"))
+GetColorTransferFunction("strength").ApplyPreset(vg.preset("Cool to Warm"))
 shown.SetScalarBarVisibility(view, True)
 vg.set_properties(GetScalarBar(GetColorTransferFunction("strength"), view), Title="force [N]", ComponentTitle="",
                   HorizontalTitle=1, **vg.label_format("%.3f"))

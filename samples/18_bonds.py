@@ -23,6 +23,7 @@ for place, periodic in ((1, "AsWritten"), (5, "MinimumImage"), (6, "Split")):
     drawn = GranularLocalJoin(Input=beads, Lines=OutputPort(bonds, 1), EquilibriumLength=1.05, PeriodicLines=periodic)
     shown = Show(Tube(Input=drawn, Radius=0.22), view)
     ColorBy(shown, ("CELLS", "strain"))
+    GetColorTransferFunction("strain").ApplyPreset(vg.preset("Cool to Warm"))
     GetColorTransferFunction("strain").RescaleTransferFunction(-0.1, 0.1)
     shown.SetScalarBarVisibility(view, False)
     Show(OutputPort(beads, 1), view, AmbientColor=[0.3] * 3, DiffuseColor=[0.3] * 3)

@@ -27,6 +27,7 @@ for place, particles, lines, text in ((1, sided, before, "whole"), (2, bent, aft
     vg.show(particles, view).Opacity = 0.08
     shown = Show(Tube(Input=lines, Radius=0.0007), view)
     ColorBy(shown, ("CELLS", "strain"))
+    GetColorTransferFunction("strain").ApplyPreset(vg.preset("Cool to Warm"))
     GetColorTransferFunction("strain").RescaleTransferFunction(-0.2, 0.2)
     shown.SetScalarBarVisibility(view, text != "whole")
     Show(Text(Text=text), view, WindowLocation="Upper Center", FontSize=18)

@@ -32,6 +32,7 @@ for place, time in ((1, 0.01), (2, 0.04)):
                       CameraViewUp=[0, 0, 1])
     views.append(view)
 colours = GetColorTransferFunction("bending moment [N m]")
+colours.ApplyPreset(vg.preset("Cool to Warm"))
 colours.RescaleTransferFunction(0, 8e-6)
 strip.SetSize(1200, 500)
 SaveScreenshot("restart_file.png", strip, SeparatorWidth=0, OverrideColorPalette="WhiteBackground")

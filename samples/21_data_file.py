@@ -16,6 +16,8 @@ beads = Show(chains, view, Representation="Grains", GrainScale=0.3, GrainRadiusA
 ColorBy(beads, ("POINTS", "mol"))
 shown = Show(Tube(Input=bonds, Radius=0.12), view)
 ColorBy(shown, ("CELLS", "btype"))
+for name in ("mol", "btype"):
+    GetColorTransferFunction(name).ApplyPreset(vg.preset("Cool to Warm"))
 Show(OutputPort(chains, 2), view, AmbientColor=[0.4] * 3, DiffuseColor=[0.4] * 3)
 Render(view)
 vg.set_properties(view, CameraParallelProjection=1, CameraPosition=[0, -60, 12], CameraFocalPoint=[0, 0, 0],

@@ -27,6 +27,7 @@ for place, moment in zip((1, 5, 6), moments):
     shown = Show(Tube(Input=whole if last else tails, Radius=0.0006), view)
     ColorBy(shown, ("POINTS", "speed"))
     colors = GetColorTransferFunction("speed")
+    colors.ApplyPreset(vg.preset("Cool to Warm"))
     colors.RescaleTransferFunction(0, 1.5)
     vg.set_properties(GetScalarBar(colors, view), Title="speed [m/s]", ComponentTitle="", HorizontalTitle=1, ScalarBarLength=0.3,
                       WindowLocation="Lower Right Corner", **vg.label_format("%.1f"))

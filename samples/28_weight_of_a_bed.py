@@ -68,6 +68,7 @@ at_sides = Threshold(Input=vertical, Scalars=["CELLS", "mesh"], LowerThreshold=1
 tubes = Show(Tube(Input=ExtractSurface(Input=at_sides), Radius=0.0005, NumberofSides=20), view)
 ColorBy(tubes, ("CELLS", "vertical"))
 colors = GetColorTransferFunction("vertical")
+colors.ApplyPreset(vg.preset("Cool to Warm"))
 colors.RescaleTransferFunction(-3, 3)
 vg.set_properties(GetScalarBar(colors, view), Title="vertical force of side walls [mN]", ComponentTitle="",
                   Orientation="Horizontal", WindowLocation="Upper Center", ScalarBarLength=0.6, ScalarBarThickness=10,
