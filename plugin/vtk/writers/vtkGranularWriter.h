@@ -144,7 +144,18 @@ protected:
   vtkGranularWriter();
   ~vtkGranularWriter() override;
 
-  void WriteData() override { this->Write(); } ///< Update() writes, too
+  // Update() writes, too
+#ifdef VTK_DEPRECATED_IN_9_7_0
+  bool WriteDataAndReturn() override
+  {
+    return this->Write() != 0;
+  }
+#else
+  void WriteData() override
+  {
+    this->Write();
+  }
+#endif
 
   struct Internals;
 
