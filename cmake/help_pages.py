@@ -80,8 +80,10 @@ def page_of(proxy, properties):
 
 
 def title_of(proxy):
-    """Returns the name that ParaView shows: the label, or the words of the XML name."""
-    return proxy.get("label") or re.sub("(?<=[a-z])(?=[A-Z])", " ", proxy.get("name"))
+    """Returns the words of the XML name, behind the text of the menu if there is another."""
+    menu = proxy.find("Hints/ShowInMenu")
+    words = re.sub("(?<=[a-z])(?=[A-Z])", " ", proxy.get("name"))
+    return f"{menu.get('text')}: {words}" if menu is not None and menu.get("text") else words
 
 
 def read_pages(paths):

@@ -22,7 +22,7 @@ GROUP_OR_PROPERTY = re.compile(r'<ProxyGroup name="(?P<group>\w+)"|<\w+VectorPro
 
 XML_TAGS = {"text": "String", "names": "String", "choice": "Int", "flag": "Int", "count": "Int", "threads": "Int",
             "number": "Double", "point": "Double", "region": "Double"}
-XML_DEFAULTS = {"text": "", "names": "", "point": "0 0 0", "region": "1 -1 1 -1 1 -1"}
+XML_DEFAULTS = {"text": "", "names": "", "point": "0 0 0", "region": "0 0 0 0 0 0"}
 
 
 def read(root, path):

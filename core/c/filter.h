@@ -150,6 +150,7 @@ Frames apply_decomposition(FilterTask& task);
 Frames apply_contact_sums(FilterTask& task);
 Frames apply_point_average(FilterTask& task);
 Frames apply_euler_average(FilterTask& task);
+Frames apply_profile(FilterTask& task);
 Frames apply_compare(FilterTask& task);
 Frames apply_trajectories(FilterTask& task);
 Frames apply_history(FilterTask& task);

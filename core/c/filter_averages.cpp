@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GranularPointAverage and GranularEulerAverage.
+// GranularPointAverage, GranularEulerAverage and GranularProfile.
 #include "filter.h"
 
 #include "granular/averages/cell_averaging.h"
 #include "granular/averages/chosen_averages.h"
+#include "granular/frames/frame_times.h"
 #include "granular/parallel/pieces.h"
 #include "granular/particles/point_forms.h"
 
@@ -51,26 +52,33 @@ std::unique_ptr<granular_frame> frame_of(EulerFrame&& averages, Table&& table)
   return frame;
 }
 
-ChosenCells cells_of(Settings& settings)
+ChosenCells cells_of(Settings& settings, bool profile)
 {
   ChosenCells cells;
+  cells.bounds = settings.numbers<6>("Bounds", { 1, -1, 1, -1, 1, -1 });
+  cells.kernel_bounds = static_cast<KernelBounds>(settings.choice("KernelBounds", 2));
+  cells.images = settings.choice("Periodic", 2) == 0;
+  cells.time_average = settings.flag("TimeAverage", false);
+  const int axis = settings.choice("ProfileAxis", 3, 2);
+  if (profile)
+  {
+    cells.profile = axis;
+    cells.grid.counts.fill(settings.integer("Layers", 20));
+    const double thickness = settings.number("Thickness", 0);
+    cells.grid.size = { thickness, thickness, thickness };
+    cells.grid.by = thickness == 0 ? EulerGridRequest::By::Counts : EulerGridRequest::By::Size;
+    return cells;
+  }
   cells.grid.by = static_cast<EulerGridRequest::By>(settings.choice("CellsBy", 3));
   const auto counts = settings.numbers<3>("CellCounts", { 10, 10, 10 });
   std::ranges::transform(counts, cells.grid.counts.begin(),
     [](double count) { return static_cast<std::int64_t>(std::clamp(count, -0x1p53, 0x1p53)); });
   cells.grid.size = settings.numbers<3>("CellSize", { 0.01, 0.01, 0.01 });
   cells.relative_size = settings.number("CellSizeRelative", 3);
-  cells.bounds = settings.numbers<6>("Bounds", { 1, -1, 1, -1, 1, -1 });
-  const int output = settings.choice("Output", 3, 1);
-  cells.image = output == 1;
-  const int axis = settings.choice("ProfileAxis", 3, 2);
-  if (output == 2)
+  if (settings.choice("Output", 3, 1) == 2)
   {
     cells.profile = axis;
   }
-  cells.kernel_bounds = static_cast<KernelBounds>(settings.choice("KernelBounds", 2));
-  cells.images = settings.choice("Periodic", 2) == 0;
-  cells.time_average = settings.flag("TimeAverage", false);
   return cells;
 }
 
@@ -131,35 +139,43 @@ Frames apply_point_average(FilterTask& task)
   return frames;
 }
 
-Frames apply_euler_average(FilterTask& task)
+namespace
+{
+Frames average_in_cells(FilterTask& task, bool profile)
 {
   Settings& settings = task.settings;
-  const ChosenCells cells = cells_of(settings);
+  const ChosenCells cells = cells_of(settings, profile);
   ChosenAverages chosen =
     averages_of(task, static_cast<ChosenWeights>(settings.choice("Weights", 5, 1)));
   chosen.names.stress = settings.text("StressArray", "");
   const std::string left_out = settings.text("LeftOut", "");
+  const auto window = settings.numbers<2>("TimeWindow", { 1, -1 });
   std::array<double, 6> none = {};
   none.fill(-1);
   const auto range = settings.numbers<6>("CellRange", none);
   Frames frames;
   if (settings.flag("GridOnly", false))
   {
-    frames.push_back(facts_of(cells.known_grid()));
+    const auto particles = cells.need_frame() ? task.particles(0) : nullptr;
+    frames.push_back(
+      facts_of(cells.make_grid(particles ? &particles->view : nullptr, chosen.names, task.group)));
     return frames;
   }
-  cells.expect_extent();
   CellAveraging averaging(std::move(chosen), cells, task.group, task.notices);
-  const std::size_t count = cells.time_average ? std::max<std::size_t>(task.frames, 1) : 1;
+  std::vector<std::size_t> numbers = { 0 };
+  if (cells.time_average)
+  {
+    numbers = frames_in_window(window, std::max<std::size_t>(task.frames, 1), task.times);
+  }
   Table table;
   Vector3 origin = {};
-  for (std::size_t frame = 0; frame < count; ++frame)
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    const auto particles = task.particles(0, frame);
-    const TaskContacts contacts(task, frame);
+    const auto particles = task.particles(0, numbers[i]);
+    const TaskContacts contacts(task, numbers[i]);
     FrameView& view = particles->view;
-    task.progress.set_part(static_cast<double>(frame) / static_cast<double>(count),
-      static_cast<double>(frame + 1) / static_cast<double>(count));
+    const auto count = static_cast<double>(numbers.size());
+    task.progress.set_part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
     averaging.add(
       { view, particles->timestep, left_out, contacts.sources() },
       [&](const EulerGrid& grid)
@@ -180,5 +196,16 @@ Frames apply_euler_average(FilterTask& task)
   frames.back()->origin = origin;
   frames.push_back(facts_of(averaging.grid()));
   return frames;
+}
+}
+
+Frames apply_euler_average(FilterTask& task)
+{
+  return average_in_cells(task, false);
+}
+
+Frames apply_profile(FilterTask& task)
+{
+  return average_in_cells(task, true);
 }
 }

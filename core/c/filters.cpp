@@ -40,6 +40,7 @@ constexpr Filter filters[] = {
   { "GranularContactSums", apply_contact_sums, contact_sum_arrays },
   { "GranularPointAverage", apply_point_average, average_arrays },
   { "GranularEulerAverage", apply_euler_average, average_arrays },
+  { "GranularProfile", apply_profile, average_arrays },
   { "GranularCompare", apply_compare },
   { "GranularTrajectories", apply_trajectories },
   { "GranularHistory", apply_history },

@@ -51,7 +51,8 @@ extern "C"
  *                        many frames as the task has. Results: rows with "points", the centres of the cells (less the origin but for a profile), and the averages; facts in one
  *                        row: "lo", "spacing" and "counts" of the grid. Settings besides those of ParaView: CellRange, six numbers: the
  *                        wanted cells along x, y and z, from one index to that before the other; else each rank gets a part of all.
- *                        GridOnly: 1: only the facts, which for an image do not depend on the particles, and no inputs
+ *                        GridOnly: 1: only the facts; particles are asked for where the cells follow from their box or their sizes
+ * GranularProfile        as GranularEulerAverage with the output Profile, but CellRange
  * LeftOut, a setting of both averages, is what a reader of the particles left out, for a warning.
  */
 

@@ -38,6 +38,24 @@ bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
     std::ranges::find(ParticleFilters, name) != std::end(ParticleFilters);
 }
 
+// Returns the representation that the hints of one of our own sources name for an output.
+std::string FindHint(vtkSMProxy* source, int port)
+{
+  const std::string name = source->GetXMLName() ? source->GetXMLName() : "";
+  vtkPVXMLElement* hints = name.starts_with("Granular") ? source->GetHints() : nullptr;
+  for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
+    int of = port;
+    hint->GetScalarAttribute("port", &of);
+    if (of == port && std::string(hint->GetName()) == "RepresentationType")
+    {
+      return hint->GetAttributeOrEmpty("type");
+    }
+  }
+  return {};
+}
+
 // ParaView hides the input of Clip when its result is first shown in the window, but only an input that is a surface: particles would
 // stay over the part of them that is left. The hints belong to all filters of this name, so that other displays set them back.
 void HideInput(vtkSMProxy* filter, bool ofParticles)
@@ -92,9 +110,11 @@ int vtkSMGranularGrainsDomain::SetDefaultValues(vtkSMProperty* property, bool)
   if (display && shown && display->GetProperty("Representation"))
   {
     const bool particles = IsParticlesFromTheReaderOn(input);
-    if (particles)
+    const std::string form =
+      particles ? "Grains" : FindHint(shown, vtkSMPropertyHelper(input).GetOutputPort(0));
+    if (!form.empty())
     {
-      vtkSMPropertyHelper(display, "Representation").Set("Grains");
+      vtkSMPropertyHelper(display, "Representation").Set(form.c_str());
     }
     HideInput(shown, particles);
   }

@@ -9,6 +9,9 @@
  * and so must be all data between the reader and these. Data without cells are particles if the reader or one of some filters made them.
  * The window then hides the particles that the filter was given.
  *
+ * Hints of our own sources for their outputs are followed here, too: ParaView does so later, when it has taken the colours from
+ * images, which it would show as outlines.
+ *
  * Made for elements GranularGrainsDomain of the server manager's XML; the property Input is required.
  */
 

@@ -10,20 +10,21 @@ vtkStandardNewMacro(vtkSMGranularLocalReaderProxy);
 
 vtkPVXMLElement* vtkSMGranularLocalReaderProxy::GetHints()
 {
+  vtkPVXMLElement* hints = this->Superclass::GetHints();
   const vtkSMPropertyHelper there(this, "CellArrayInfo"); // name, "0" or "1", name, ...
   bool ends = there.GetNumberOfElements() == 0;
   for (unsigned int i = 0; i < there.GetNumberOfElements(); i += 2)
   {
     ends = ends || std::strcmp(there.GetAsString(i), "position1") == 0;
   }
-  if (ends || !this->Hints)
+  if (ends || !hints)
   {
-    return this->Hints;
+    return hints;
   }
   this->RowsHints->RemoveAllNestedElements();
-  for (unsigned int i = 0; i < this->Hints->GetNumberOfNestedElements(); ++i)
+  for (unsigned int i = 0; i < hints->GetNumberOfNestedElements(); ++i)
   {
-    vtkPVXMLElement* hint = this->Hints->GetNestedElement(i);
+    vtkPVXMLElement* hint = hints->GetNestedElement(i);
     if (std::strcmp(hint->GetName(), "View") != 0)
     {
       this->RowsHints->AddNestedElement(hint, 0);

@@ -123,6 +123,17 @@ assert len(profile.update(CellsBy=1, CellSize=(1e-9, 1, 0.01))["position"]) == 9
 assert len(profile.update(CellsBy=2, CellSizeRelative=3)["position"]) == 5
 assert len(profile.update(CellsBy=0, ProfileAxis=1)["position"]) == 77
 assert profile.filter.GetOutputDataObject(0).GetFieldData().GetArray("timestep").GetValue(0) == 70000
+layers = vg.vtkGranularProfile()
+layers.SetController(None)
+for port in range(3):
+    layers.SetInputConnection(port, profile.filter.GetInputConnection(port, 0))
+layers.SetWeights(CENTRE)
+for setting, value, count in (("Layers", 77, 77), ("Thickness", 0.01, 9), ("Thickness", 0, 77), ("Layers", 9, 9)):
+    getattr(layers, f"Set{setting}")(value)
+    layers.UpdateTimeStep(70000)
+    assert layers.GetOutputDataObject(0).GetNumberOfRows() == count
+expected, found = profile.update(ProfileAxis=2), tables_of(layers.GetOutputDataObject(0))
+assert all(found[name].tobytes() == expected[name].tobytes() for name in expected if name in found) and set(found) >= {"position", *DEFAULT}
 fields = profile.output(ProfileAxis=2)
 assert not fields.GetFieldData().HasArray("Columns")
 # from one type of output to another

@@ -31,15 +31,16 @@ assert cells_of(average) == 0
 average.RadiusArray = "radius"
 assert cells_of(average) == 1000
 vg.set_properties(average, CellsBy="CellSize", CellSize=[0.02, 0.02, 0.02])
-assert cells_of(average) == 0
-average.Bounds = [-0.05, 0.05, -0.05, 0.05, 0, 0.15]
 assert cells_of(average) == 5 * 5 * 7
+average.Bounds = [0, 0.05, 0, 0.05, 0, 0.15]
+assert cells_of(average) == 2 * 2 * 7
+average.Bounds = [-0.05, 0.05, -0.05, 0.05, 0, 0.15]
 average.CellSize = [0, 0.02, 0.02]
 assert cells_of(average) == 0
 average.CellSize = [1e-9, 1e-9, 1e-9]
 assert cells_of(average) == 0
 average.CellsBy = "CellSizeRelative"
-assert cells_of(average) == 0
+assert cells_of(average) == 112
 average.Output = "Points"
 assert cells_of(average) == 112
 vg.set_properties(average, CellsBy="CellCounts", CellCounts=[30000, 30000, 1000])  # more than there is memory for

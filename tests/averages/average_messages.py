@@ -106,10 +106,15 @@ for size in ((0, 0.01, 0.01), (0.01, -0.01, 0.01), (0.01, 0.01, float("nan"))):
     fails(average, "expected edges of cells above 0, got ", 2000, CellsBy=SIZE, CellSize=size, Bounds=BOX)
 fails(average, "expected less than 2.31 cells along an axis", 2000, CellSize=(1e-12, 1, 1))
 fails(average, "expected at most 2.40 cells, got 100000 x 100000 x 150", 2000, CellSize=(1e-6, 1e-6, 1e-3))
-fails(average, "expected Bounds for an image of cells of a CellSize", 2000, CellSize=(0.01, 0.01, 0.015),
-      Bounds=(1, -1) * 3)
-fails(average, "expected Bounds for an image of cells of a CellSize", 2000, Bounds=(-0.05, 0.05) + (1, -1) * 2)
-fails(average, "expected points as output for CellSizeRelative, got an image", 2000, CellsBy=RELATIVE)
+works(average, 2000, CellSize=(0.01, 0.02, 0.015), Bounds=(1, -1) * 3)  # by the box of the dump
+assert average.GetOutputDataObject(0).GetExtent() == (0, 10, 0, 5, 0, 10)
+works(average, 0, Bounds=(0, 0, -0.02, 0.02, 1, -1))
+assert average.GetOutputDataObject(0).GetExtent() == (0, 10, 0, 2, 0, 10)
+assert average.GetOutputDataObject(0).GetOrigin() == (-0.05, -0.02, 0)
+relative = works(average, 2000, CellsBy=RELATIVE, Bounds=(0, 0) * 3)
+assert relative["radius"].tobytes() == works(average, 2000, OutputType=POINTS)["radius"].tobytes()
+assert len(relative["radius"]) == 112 and average.GetOutputDataObject(0).GetNumberOfPoints() == 112
+average.SetOutputType(1)
 for counts in ((0, 1, 1), (3, -7, 3)):
     fails(average, "expected 1 to 2.31 - 1 cells along each axis, got", 2000, CellsBy=COUNTS, CellCounts=counts)
 # as many as there may be: of the memory, where there is no room
@@ -241,8 +246,12 @@ info = over_time.GetOutputInformation(0)
 steps = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
 assert not info.Has(steps)
 assert over_time.GetOutputDataObject(0).GetExtent() == (0, 9, 0, 8, 0, 20)
+# only some frames, as after the filling
+later = works(over_time, TimeWindow=(1000, 1000))
+fails(over_time, "expected a TimeWindow with frames, got none from 2001 to 9000", TimeWindow=(2001, 9000))
 # one step after it again: the reader is at the time that is shown
-alone = works(over_time, 1000, TimeAverage=False)
+alone = works(over_time, 1000, TimeAverage=False, TimeWindow=(1, -1))
+assert numpy.allclose(later["volumefraction"], alone["volumefraction"], rtol=1e-15, atol=0)
 assert numpy.allclose(alone["volumefraction"], plainly(first, 1)["volumefraction"].ravel(), rtol=1e-13, atol=1e-15)
 assert info.Length(steps) == 3
 fails(over_time, "expected the same cells in all frames that are averaged, got others in frame 1", OutputType=POINTS,

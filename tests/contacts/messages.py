@@ -126,7 +126,7 @@ works(good)
 assert array(good, "coordination").tolist() == [2, 2, 1]
 assert array(good, "contact_force").tolist() == [[-4, 1, 3], [-2, -1, 0], [6, 0, 0]]
 
-refused("expected contacts: the input Lines, Walls, or both, got none", 1, pairs())
+refused("expected contacts: the input Lines, Walls, or both, got none. In the window: Edit, Change Input", 1, pairs())
 works(made_of(lines=pairs()))
 works(made_of(walls=walls()))
 refused("expected a vtkPointSet of particles, got a vtkImageData", 0, all_particles(), particles=vtkImageData(), lines=pairs())

@@ -81,8 +81,8 @@ refused(lambda: vg.update(clip), RuntimeError, message)  # through filters of Pa
 reader.FileNames = [good("grains_1000.dump")]
 vg.update(clip)  # and it is forgotten
 assert reader.GetPropertyValue("ErrorMessage") == ""
-average = GranularEulerAverage(Input=reader, CellsBy="CellSizeRelative")
-refused(lambda: vg.update(average), RuntimeError, "expected points as output for CellSizeRelative")
+average = GranularEulerAverage(Input=reader, CellsBy="CellSizeRelative", CellSizeRelative=0)
+refused(lambda: vg.update(average), RuntimeError, "expected a CellSizeRelative above 0")
 
 # a second argument that is no time of a step
 refused(lambda: vg.reader(good("grains.dump"), "Contacts"), TypeError, "dt", "'Contacts'")

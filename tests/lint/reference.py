@@ -127,10 +127,16 @@ def functions_page(root, files):
     return "\n".join(lines[:-1]) + "\n"
 
 
+def in_menus(proxy):
+    """The text of a proxy in menus, if it has one of its own."""
+    texts = [hint.get("text") for hint in proxy.all("ShowInMenu") if hint.get("text")]
+    return f", in menus *{texts[0]}*" if texts else ""
+
+
 def page(group, proxy, header, exposed):
     name = proxy.get("name")
     lines = [MADE, f"# {name}", "",
-             f"ParaView {GROUPS[group]}; VTK class `{proxy.get('class')}`. {brief(header)}", "", words(proxy), ""]
+             f"ParaView {GROUPS[group]}{in_menus(proxy)}; VTK class `{proxy.get('class')}`. {brief(header)}", "", words(proxy), ""]
     ports = [port.get("name") for port in proxy.children if port.tag == "OutputPort"]
     if ports:
         lines += ["Outputs: " + ", ".join(f"{number} `{port}`" for number, port in enumerate(ports)) + ".", ""]

@@ -16,6 +16,7 @@ from stopping import stopped
 data = os.path.join(os.environ["GRANULAR_DATA"], "good")
 RUNS = [(["grains.dump"], "v radius", {}), (["paths/walk.dump.gz"], "*", {}), (["local/chain.dump"], "mol v", {}),
         (["ortho_unwrapped.dump"], "", {"Coordinates": "Unwrapped"}), (["tri_000000.dump.gz", "tri_000050.dump.gz"], "", {})]
+ALL = {"NumberOfSamples": 0}
 CHOICES = [{"NumberOfSamples": 0}, {"Ids": "3"}, {"EveryNth": 7, "FrameStride": 2}, {"NumberOfSamples": 12, "Seed": 4}, {"Ids": "-1"},
            {"RegionOfInterest": [1, -1, 1, -1, -100, 1]}]
 MORE = [{}, {"PeriodicLines": 1}, {"Tail": 1}]
@@ -47,7 +48,7 @@ def columns_of(table):
 
 
 def check_table(source, names, form, time, **properties):
-    proxy = GranularHistory(Input=source, **properties)
+    proxy = GranularHistory(Input=source, **{**ALL, **properties})
     proxy.UpdatePipeline(time)
     found = columns_of(proxy.GetClientSideObject().GetOutput())
     if not first:
@@ -71,7 +72,7 @@ for run, (names, arrays, form) in enumerate(RUNS):
         # all arrays of the filter are one more
         sources, wanted = ((reader,), "*") if arrays == "*" and number == 0 else ((reader, through), some)
         source = sources[(run + number) % len(sources)]
-        proxy = GranularTrajectories(Input=source, Arrays=wanted, **properties, **more)
+        proxy = GranularTrajectories(Input=source, Arrays=wanted, **{**ALL, **properties, **more})
         whole = all_ranks.whole(proxy, time)
         if first:
             found = plain_paths.lines_of(whole)
@@ -141,8 +142,7 @@ for name, said in (("repeated.dump", "got id 17 in rows 16 and 200 of timestep 1
     reader = GranularDumpReader(FileNames=[os.path.abspath(name)])
     through = Calculator(Input=reader, Function="1", ResultArrayName="one")
     for source in (reader, through):
-        every = {"NumberOfSamples": 0}
-        for kind, properties in ((GranularTrajectories, every), (GranularHistory, every), (GranularTrajectories, {"Ids": "10-20"}),
+        for kind, properties in ((GranularTrajectories, ALL), (GranularHistory, ALL), (GranularTrajectories, {"Ids": "10-20"}),
                                  (GranularHistory, {"Output": 1, "MeanSquareDisplacement": 1}), (GranularHistory, {"Output": 1})):
             proxy = kind(Input=source, **properties)
             proxy.UpdatePipeline(0)

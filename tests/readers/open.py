@@ -12,7 +12,7 @@ ALL_PARTICLES, SPHERE, CONTACTS = "grains_1000.dump", "data_file/sphere.data", "
 FIBRES, CELLS, DOMAINS = "restart/fibres.restart", "euler_1000.vtk", "decomposition/all.vtk"
 COMMON = {"TimestepSize": 1, "RefreshOnUpdate": 0, "Threads": 0}
 LINES = {"PeriodicLines": "MinimumImage", "PointOrigin": [0, 0, 0]}
-PARTICLES = {"Coordinates": "Absolute", "PointOrigin": [0, 0, 0], "SortById": 0, "Stride": 1, "RegionOfInterest": [1, -1, 1, -1, 1, -1]}
+PARTICLES = {"Coordinates": "Absolute", "PointOrigin": [0, 0, 0], "SortById": 0, "Stride": 1, "RegionOfInterest": [0] * 6}
 
 
 def good(name):

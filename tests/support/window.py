@@ -48,6 +48,13 @@ class Window:
         """Adds the choice of a source or filter in the menu Sources or Filters."""
         self.event(f"menubar/menu{menu}/pqProxyGroupMenuManager0/{name}", "activate")
 
+    def select_input(self, name, place):
+        """Adds the choice of a second input in the dialog that a filter opens; place: in the tree of the pipeline."""
+        self.event(f"SelectInputDialog/buttonFrame/{name}", "set_boolean", "true")
+        for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
+            self.event("SelectInputDialog/pipelineView", command, f"{buttons},0,100,6,{place}")
+        self.event("SelectInputDialog/buttonBox/1QPushButton0", "activate")
+
     def last_frame(self):
         self.event("VCRToolbar/actionVCRLastFrame", "activate")
 
@@ -73,8 +80,8 @@ class Window:
 
 
 def run(*command, **environment):
-    """Runs a program to its end, prints what it says and returns that; kills it after a minute."""
-    said = subprocess.run(command, env={**os.environ, **environment}, timeout=100, stdin=subprocess.DEVNULL,
+    """Runs a program to its end, prints what it says and returns that; kills it after a while."""
+    said = subprocess.run(command, env={**os.environ, **environment}, timeout=280, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     print(said.stdout, flush=True)
     assert said.returncode == 0, f"exit status {said.returncode} of {command}"

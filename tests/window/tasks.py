@@ -6,6 +6,7 @@ import os
 import sys
 
 import numpy
+from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 from window import Window
@@ -19,6 +20,12 @@ TASKS = [
     ("filter Clip", {"RenderView": ["Wireframe", "Grains"]}),
     ("new; open paths/walk.dump.gz; filter GranularTrajectories", {"RenderView": ["Wireframe", "Surface by speed"]}),
     ("new; open paths/walk.dump.gz; filter GranularHistory", {"RenderView": ["Grains", "Wireframe"], "XYChartView": ["time: 10 series"]}),
+    ("new; open local/settled_grains.dump.gz; filter GranularEulerAverage", {"RenderView": ["Wireframe", "Surface by volumefraction"]}),
+    ("new; open local/settled_grains.dump.gz; filter GranularProfile",
+     {"RenderView": ["Grains", "Wireframe"], "XYChartView": ["volumefraction: position"]}),
+    ("new; open local/settled_contacts.dump.gz; open local/settled_grains.dump.gz; filter GranularContactSums Lines /0:0/0:0/0:0",
+     {"RenderView": ["Wireframe", "Wireframe", "Grains", "Surface"]}),
+    ("new; source GranularPackingSource", {"RenderView": ["Grains", "Wireframe", "Surface"]}),
     ("new; open local/contacts.dump", {"RenderView": ["Contacts", "Wireframe"]}),
     ("last frame", {"RenderView": ["Contacts", "Wireframe"]}),
     ("new; open local/ovito.local", {"RenderView": ["Contacts", "Wireframe"], "SpreadSheetView": [""]}),
@@ -59,6 +66,27 @@ for number, view in enumerate(GetViews()):
 with open("{number}.json", "w") as file:
     json.dump(seen, file)
 """
+# All that is on the screen, to be seen by the X server's own picture of it: 0x00RRGGBB for each pixel.
+SCREEN = """
+import ctypes
+import numpy
+class Image(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_int) for name in ("width", "height", "offset", "format")] + [("data", ctypes.c_void_p)]
+x11 = ctypes.CDLL("libX11.so.6")
+for function, kind in ((x11.XOpenDisplay, ctypes.c_void_p), (x11.XDefaultRootWindow, ctypes.c_ulong), (x11.XGetImage, ctypes.POINTER(Image))):
+    function.restype = kind
+display = ctypes.c_void_p(x11.XOpenDisplay(None))
+size = x11.XDisplayWidth(display, 0), x11.XDisplayHeight(display, 0)
+image = x11.XGetImage(display, ctypes.c_ulong(x11.XDefaultRootWindow(display)), 0, 0, *size, ctypes.c_ulong(0xffffffff), 2).contents
+pixels = numpy.frombuffer(ctypes.string_at(image.data, 4 * image.width * image.height), numpy.uint32) & 0xffffff
+numpy.save("screen.npy", pixels)
+"""
+
+
+# Words that find a filter by Ctrl+Space, which searches the names in menus; functions of scripts have other names.
+WORDS = {"GranularEulerAverage": "solid fraction", "GranularProfile": "solid fraction", "GranularPointAverage": "coarse graining",
+         "GranularContactSums": "coordination", "GranularHistory": "MSD", "GranularTrajectories": "Paths", "GranularCompare": "broken bonds",
+         "GranularLocalJoin": "contacts and bonds", "GranularDecomposition": "load balance"}
 
 
 def drawn(name):
@@ -70,10 +98,17 @@ def drawn(name):
     return len(pixels) - numpy.unique(pixels, axis=0, return_counts=True)[1].max()
 
 
+for name, words in WORDS.items():
+    label = servermanager.ProxyManager().GetPrototypeProxy("filters", name).GetXMLLabel()
+    assert words in label and hasattr(simple, name), (name, label)
+
 for name in os.listdir():
     if name.endswith((".png", ".json")):
         os.remove(name)
 window = Window(sys.argv[1])
+window.open(os.path.join(GOOD, "grains.dump"))
+window.event("propertiesDock/propertiesPanel/Help", "activate")  # the button '?'
+window.in_shell(SCREEN)
 for number, (task, _) in enumerate(TASKS):
     for word, *rest in [step.split() for step in task.split("; ")]:
         if word == "new":
@@ -85,10 +120,18 @@ for number, (task, _) in enumerate(TASKS):
             window.last_frame()
         else:
             window.choose(word.capitalize() + "s", rest[0])
+            if rest[1:]:
+                window.select_input(*rest[1:])
             window.apply()
     window.in_shell(LOOK.format(number=number))
 said = window.play()
 assert "ERR|" not in said and "Traceback" not in said
+screen = numpy.load("screen.npy")
+white = screen == 0xffffff
+page, text = white.mean(), ((screen < 0x404040) & (numpy.roll(white, 4) | numpy.roll(white, -4))).mean()
+version = simple.GetParaViewVersion()
+if "help" in sys.argv and (version.major, version.minor) != (5, 13):  # of Debian, which shows an empty page of its own filters, too
+    assert page > 0.1 and text > 0.005, f"{page:.3f} of the screen is a white page, {text:.4f} dark text on it"
 wrong = []
 for number, (task, expected) in enumerate(TASKS):
     with open(f"{number}.json") as file:

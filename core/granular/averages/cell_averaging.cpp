@@ -13,59 +13,45 @@ namespace
 {
 bool are_given(const std::array<double, 6>& bounds)
 {
-  return bounds[0] <= bounds[1] && bounds[2] <= bounds[3] && bounds[4] <= bounds[5];
+  return is_given(&bounds[0]) && is_given(&bounds[2]) && is_given(&bounds[4]);
 }
 }
 
-void ChosenCells::expect_extent() const
+bool ChosenCells::need_frame() const
 {
-  if (image && grid.by == EulerGridRequest::By::Cutoff)
-  {
-    throw Error(
-      "expected points as output for CellSizeRelative, got an image, whose extent must be "
-      "known before the particles");
-  }
-  if (image && grid.by == EulerGridRequest::By::Size && !are_given(bounds))
-  {
-    throw Error("expected Bounds for an image of cells of a CellSize, got none: give Bounds, "
-                "CellCounts, or output points");
-  }
+  return grid.by == EulerGridRequest::By::Cutoff ||
+    (grid.by == EulerGridRequest::By::Size && !are_given(bounds));
 }
 
-EulerGrid ChosenCells::known_grid() const
+EulerGrid ChosenCells::make_grid(
+  const FrameView* particles, const ParticleArrayNames& names, Communicator& ranks) const
 {
-  this->expect_extent();
   EulerGridRequest request = grid;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  if (particles != nullptr)
+  {
+    std::tie(request.lo, request.hi) = find_bounds(*particles, bounds, nullptr);
+  }
+  for (std::size_t axis = 0; axis < 3 && particles == nullptr; ++axis)
   {
     request.lo[axis] = are_given(bounds) ? bounds[2 * axis] : 0;
     request.hi[axis] = are_given(bounds) ? bounds[2 * axis + 1] : 1;
   }
-  return make_euler_grid(request);
-}
-
-EulerGrid CellAveraging::make_grid(const FrameView& particles) const
-{
-  EulerGridRequest request = cells_.grid;
-  const double largest = request.by == EulerGridRequest::By::Cutoff
-    ? largest_radius(particles, chosen_.names, ranks_)
-    : 0;
-  std::tie(request.lo, request.hi) = find_bounds(particles, cells_.bounds, nullptr);
-  if (request.by == EulerGridRequest::By::Cutoff)
+  if (particles != nullptr && request.by == EulerGridRequest::By::Cutoff)
   {
-    if (!(cells_.relative_size > 0))
+    const double largest = largest_radius(*particles, names, ranks);
+    if (!(relative_size > 0))
     {
-      throw Error("expected a CellSizeRelative above 0, got " + to_text(cells_.relative_size));
+      throw Error("expected a CellSizeRelative above 0, got " + to_text(relative_size));
     }
-    request.cutoff = cells_.relative_size * 2 * largest;
+    request.cutoff = relative_size * 2 * largest;
   }
-  EulerGrid grid = make_euler_grid(request);
-  for (int axis = 0; cells_.profile && axis < 3; ++axis)
+  EulerGrid made = make_euler_grid(request);
+  for (int axis = 0; profile && axis < 3; ++axis)
   {
-    std::int64_t& count = grid.counts[static_cast<std::size_t>(axis)];
-    count = axis == *cells_.profile ? count : 1;
+    std::int64_t& count = made.counts[static_cast<std::size_t>(axis)];
+    count = axis == *profile ? count : 1;
   }
-  return grid;
+  return made;
 }
 
 void CellAveraging::add(
@@ -80,7 +66,7 @@ void CellAveraging::add(
                 "twice");
   }
   const std::string boundary = view.header.box.boundary;
-  grid_ = request.grid = this->make_grid(view);
+  grid_ = request.grid = cells_.make_grid(&view, chosen_.names, ranks_);
   if (!cells_.images)
   {
     view.header.box.boundary.clear();

@@ -24,14 +24,14 @@ struct ChosenCells
   KernelBounds kernel_bounds = KernelBounds::None;
   bool images = true; ///< particles have periodic ones
   bool time_average = false;
-  bool image = false; ///< the extent must be known before the particles
 
-  /// Returns the grid as far as it is known before the particles: bounds that are not given are 0 to 1. Throws Error where an image would
-  /// not know its extent, and what make_euler_grid throws.
-  EulerGrid known_grid() const;
+  /// Returns true if the number of cells follows from a frame: its box, or its particles.
+  bool need_frame() const;
 
-  /// Throws Error where an image would not know its extent.
-  void expect_extent() const;
+  /// Returns the grid; without particles, where none are needed, bounds that are not given are 0 to 1. Throws Error for a relative_size that
+  /// is not above 0, and what find_bounds and make_euler_grid throw. Collective.
+  EulerGrid make_grid(
+    const FrameView* particles, const ParticleArrayNames& names, Communicator& ranks) const;
 };
 
 /// Averages in cells, over one or more frames.
@@ -57,8 +57,6 @@ public:
   EulerFrame finish();
 
 private:
-  EulerGrid make_grid(const FrameView& particles) const;
-
   const ChosenCells cells_;
   EulerGrid grid_;
   EulerAverages last_;

@@ -154,7 +154,8 @@ ChosenSums sum_chosen(const FrameView& particles, const ContactSources& contacts
 {
   if (contacts[0].rows == nullptr && contacts[1].rows == nullptr)
   {
-    throw Error("expected contacts: the input Lines, Walls, or both, got none");
+    throw Error("expected contacts: the input Lines, Walls, or both, got none. In the window: "
+                "Edit, Change Input");
   }
   expect_number("MinimumForce", request.least_force, true);
   expect_number("MinimumOverlap", request.least_overlap, true);

@@ -113,4 +113,25 @@ std::vector<double> frame_times(
   check_finite(frames, times, timestep_size, path);
   return times;
 }
+
+std::vector<std::size_t> frames_in_window(
+  const std::array<double, 2>& window, std::size_t frames, std::span<const double> times)
+{
+  const auto [first, last] = window;
+  const bool all = first > last || (first <= -1e99 && last >= 1e99);
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < frames; ++i)
+  {
+    if (all || (i < times.size() && times[i] >= first && times[i] <= last))
+    {
+      numbers.push_back(i);
+    }
+  }
+  if (numbers.empty())
+  {
+    throw Error("expected a TimeWindow with frames, got none from " + to_text(first) + " to " +
+      to_text(last));
+  }
+  return numbers;
+}
 }

@@ -4,6 +4,8 @@
 
 #include "granular/common/error.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -33,5 +35,10 @@ bool have_times(std::span<const FrameInstant> frames) noexcept;
 /// Throws Error if timestep_size makes a time infinite.
 std::vector<double> frame_times(std::span<const FrameInstant> frames, double timestep_size,
   const std::string& path, Notices& notices);
+
+/// Returns the numbers of the frames in a window: first and last time, or all if the first is above the last or both are beyond 1e99, the
+/// widest that forms show. times: of all frames, or none. Throws Error if there is no frame in it.
+std::vector<std::size_t> frames_in_window(
+  const std::array<double, 2>& window, std::size_t frames, std::span<const double> times);
 }
 #endif

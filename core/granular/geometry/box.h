@@ -91,13 +91,19 @@ void check_bounds(const Box& box);
 /// Checks that a box can scale coordinates. Throws Error if it has no volume.
 void check_volume(const Box& box);
 
-/// A region: xlo xhi ylo yhi zlo zhi, closed; an axis with lo > hi is not restricted.
+/// Returns true if two numbers give a range, lo to hi: neither lo > hi nor 0 0, which forms show where nothing was given.
+inline bool is_given(const double* range) noexcept
+{
+  return range[0] <= range[1] && (range[0] != 0 || range[1] != 0);
+}
+
+/// A region: xlo xhi ylo yhi zlo zhi, closed; an axis without a range that is given is not restricted.
 using Region = std::span<const double, 6>;
 
 /// Returns true if the region restricts an axis.
 inline bool restricts(Region region) noexcept
 {
-  return region[0] <= region[1] || region[2] <= region[3] || region[4] <= region[5];
+  return is_given(&region[0]) || is_given(&region[2]) || is_given(&region[4]);
 }
 
 /// Returns true if a point is inside. A coordinate that is no number is in no region that restricts its axis.
@@ -105,9 +111,8 @@ inline bool contains(Region region, const double* point) noexcept
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double lo = region[2 * axis];
-    const double hi = region[2 * axis + 1];
-    if (lo <= hi && !(point[axis] >= lo && point[axis] <= hi))
+    const double* const range = &region[2 * axis];
+    if (is_given(range) && !(point[axis] >= range[0] && point[axis] <= range[1]))
     {
       return false;
     }

@@ -16,7 +16,7 @@ std::pair<Vector3, Vector3> find_bounds(
   {
     throw Error("expected Bounds of numbers, got nan");
   }
-  const bool all = given[0] <= given[1] && given[2] <= given[3] && given[4] <= given[5];
+  const bool all = is_given(&given[0]) && is_given(&given[2]) && is_given(&given[4]);
   if (!all && !particles.has_box)
   {
     throw Error("expected the box in the field data of the input (BoxOrigin, BoxVectors), "
@@ -34,7 +34,7 @@ std::pair<Vector3, Vector3> find_bounds(
   Vector3 hi = box.hi;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    if (given[2 * k] <= given[2 * k + 1])
+    if (is_given(&given[2 * k]))
     {
       lo[k] = given[2 * k];
       hi[k] = given[2 * k + 1];

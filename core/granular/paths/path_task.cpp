@@ -2,6 +2,7 @@
 #include "granular/paths/path_task.h"
 
 #include "granular/common/words.h"
+#include "granular/frames/frame_times.h"
 #include "granular/particles/known_arrays.h"
 
 #include <algorithm>
@@ -55,23 +56,11 @@ void PathTask::keep_tail(double time, std::int64_t tail)
 
 void PathTask::choose_frames()
 {
-  const std::vector<double>& all = frames.times();
-  const auto [first, last] = choice_.window;
-  std::int64_t count = 0; // in the range
-  for (std::size_t i = 0; i < frames.size(); ++i)
+  const std::vector<std::size_t> all =
+    frames_in_window(choice_.window, frames.size(), frames.times());
+  for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(choice_.stride))
   {
-    if (first > last || (!all.empty() && all[i] >= first && all[i] <= last))
-    {
-      if (count++ % choice_.stride == 0)
-      {
-        numbers.push_back(i);
-      }
-    }
-  }
-  if (numbers.empty())
-  {
-    throw Error("expected a TimeWindow with frames, got none from " + std::to_string(first) +
-      " to " + std::to_string(last));
+    numbers.push_back(all[i]);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "private/request/request_task.h"
 
 #include "granular/averages/cell_averaging.h"
+#include "granular/frames/frame_times.h"
 
 #include "vtkDataObjectTypes.h"
 #include "vtkFieldData.h"
@@ -61,8 +62,33 @@ public:
       self.KernelBounds == INSIDE ? granular::KernelBounds::Inside : granular::KernelBounds::None;
     cells.images = self.Periodic == BOUNDARY;
     cells.time_average = self.TimeAverage;
-    cells.image = self.OutputType == IMAGE_DATA;
+    if (self.Counts[0] > 0) // an image, which has as many cells at all times
+    {
+      cells.grid.by = granular::EulerGridRequest::By::Counts;
+      cells.grid.counts = self.Counts;
+    }
     return cells;
+  }
+
+  /**
+   * Returns a grid with as many cells as an image has. They are told before the frame is known: if they follow from its box or its particles,
+   * from those of the last frame, because runs often begin without particles. Collective.
+   */
+  static granular::EulerGrid FindImage(vtkGranularEulerAverage* self, granular::Communicator& ranks)
+  {
+    const granular::ChosenCells cells = DescribeCells(*self);
+    granular::ParticleArrayNames names;
+    names.radius = self->RadiusArray;
+    if (!cells.need_frame())
+    {
+      return cells.make_grid(nullptr, names, ranks);
+    }
+    InputFrames input(self, { ranks.rank(), ranks.size(), 0 });
+    const std::vector<double> times = input.GetTimes();
+    CheckTimes(times, ranks);
+    input.Update(times.empty() ? std::nullopt : std::optional(times.back()), ranks);
+    const Particles particles(input.GetData(), ranks);
+    return cells.make_grid(&particles.View, names, ranks);
   }
 
 private:
@@ -94,8 +120,10 @@ private:
     }
     const std::vector<double> times = inputs[0]->GetTimes();
     CheckTimes(times, this->Ranks);
-    const std::size_t count = std::max<std::size_t>(times.size(), 1);
-    for (std::size_t frame = 0; frame < count; ++frame)
+    const std::vector<std::size_t> numbers =
+      granular::frames_in_window({ this->Self->TimeWindow[0], this->Self->TimeWindow[1] },
+        std::max<std::size_t>(times.size(), 1), times);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
     {
       FrameInputs data = {};
       for (std::size_t port = 0; port < data.size(); ++port)
@@ -103,12 +131,12 @@ private:
         if (inputs[port])
         {
           inputs[port]->Update(
-            times.empty() ? std::nullopt : std::optional(times[frame]), this->Ranks);
+            times.empty() ? std::nullopt : std::optional(times[numbers[i]]), this->Ranks);
           data[port] = inputs[port]->GetData();
         }
       }
-      this->Progress.set_part(static_cast<double>(frame) / static_cast<double>(count),
-        static_cast<double>(frame + 1) / static_cast<double>(count));
+      const auto count = static_cast<double>(numbers.size());
+      this->Progress.set_part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
       this->AddFrame(averaging, data);
     }
   }
@@ -208,13 +236,19 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
   info->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
   info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
   info->Remove(Pipeline::WHOLE_EXTENT());
+  this->Counts = {};
   if (this->OutputType != IMAGE_DATA)
   {
     info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
     return 1;
   }
   const Outcome outcome = Guard(this, *this->Ranks, outputVector,
-    [&] { OfferExtent(info, ExtentOf(Task::DescribeCells(*this).known_grid())); });
+    [&]
+    {
+      const granular::EulerGrid grid = Task::FindImage(this, this->Ranks->Get());
+      this->Counts = grid.counts;
+      OfferExtent(info, ExtentOf(grid));
+    });
   return this->Ranks->EndRequest(this, outcome);
 }
 
@@ -222,10 +256,14 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
 void vtkGranularEulerAverage::Execute(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // for a pipeline that goes on after RequestInformation failed
-  Task::DescribeCells(*this).expect_extent();
+  if (this->OutputType == IMAGE_DATA && this->Counts[0] == 0)
+  {
+    // a pipeline that goes on after RequestInformation failed
+    this->Counts = Task::FindImage(this, this->Ranks->Get()).counts;
+  }
   Task(this, request, inputVector, outputVector).Run();
 }
 
 vtkGranularPrintMacro(vtkGranularEulerAverage, OutputType, CellsBy, CellCounts, CellSize,
-  CellSizeRelative, Bounds, ProfileAxis, Weights, KernelBounds, Periodic, StressArray, TimeAverage);
+  CellSizeRelative, Bounds, ProfileAxis, Weights, KernelBounds, Periodic, StressArray, TimeAverage,
+  TimeWindow);

@@ -37,7 +37,9 @@
 #include "vtkGranularAverageAlgorithm.h"
 #include "vtkGranularModule.h" // For export macro
 
-#include <string> // for std::string
+#include <array>   // for std::array
+#include <cstdint> // for std::int64_t
+#include <string>  // for std::string
 
 class VTKGRANULAR_EXPORT vtkGranularEulerAverage : public vtkGranularAverageAlgorithm
 {
@@ -90,9 +92,10 @@ public:
    * Sets the meaning of the numbers that choose the cells.
    * COUNTS, the default: CellCounts, how many along x, y and z, 1 and more; 10 10 10 by default.
    * SIZE: CellSize, the least edges along x, y and z [m], above 0: as many cells as fit fill the bounds, and are as large
-   * as that or larger. For IMAGE_DATA the Bounds must be given. 0.01 0.01 0.01 by default.
+   * as that or larger. 0.01 0.01 0.01 by default.
    * RELATIVE_SIZE: CellSizeRelative, the least edge in units of the largest diameter, above 0: cell_size_relative of fix
-   * ave/euler, where LIGGGHTS' granular pair styles cut off at that distance. For POINTS only. 3 by default, as there.
+   * ave/euler, where LIGGGHTS' granular pair styles cut off at that distance. 3 by default, as there.
+   * IMAGE_DATA has as many cells at all times: where the box and the largest diameter decide, those of the last time.
    */
   vtkGranularSetRangeMacro(CellsBy, int, COUNTS, RELATIVE_SIZE);
   vtkGetMacro(CellsBy, int);
@@ -106,7 +109,7 @@ public:
 
   ///@{
   /**
-   * Sets the box that is divided: xlo xhi ylo yhi zlo zhi. An axis with lo above hi, the default for all, uses the box in
+   * Sets the box that is divided: xlo xhi ylo yhi zlo zhi. An axis of 0 0, or with lo above hi, the default for all, uses the box in
    * the field data of the input; of a tilted box its smallest bounds.
    */
   vtkSetVector6Macro(Bounds, double);
@@ -151,9 +154,12 @@ public:
    * volume of the cell times the number of timesteps, including those in which it is empty. v_avg is that of all
    * timesteps, so stress and pressure contain the changes of a cell's mean velocity over time. The output then has no
    * time; cells must not change with time. Off by default.
+   * TimeWindow: the first and last time; (1, -1), the default, or any others with first > last: all.
    */
   vtkSetMacro(TimeAverage, bool);
   vtkGetMacro(TimeAverage, bool);
+  vtkSetVector2Macro(TimeWindow, double);
+  vtkGetVector2Macro(TimeWindow, double);
   ///@}
 
 protected:
@@ -184,6 +190,8 @@ private:
   int Periodic = BOUNDARY;
   std::string StressArray;
   bool TimeAverage = false;
+  double TimeWindow[2] = { 1, -1 };
+  std::array<std::int64_t, 3> Counts = {}; ///< of an image
 };
 
 #endif

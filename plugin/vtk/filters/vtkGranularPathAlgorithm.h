@@ -61,8 +61,8 @@ public:
   ///@{
   /**
    * Sets a region in the SelectionFrame, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: particles
-   * whose centres are inside are selected. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles,
-   * by default.
+   * whose centres are inside are selected. An axis of 0 0, or with min > max, is not restricted. (1, -1, 1, -1, 1, -1), all
+   * particles, by default.
    */
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);

@@ -72,7 +72,7 @@ public:
   ///@{
   /**
    * Sets a region, xmin xmax ymin ymax zmin zmax in absolute coordinates, faces included: only particles whose centres are
-   * inside are kept. An axis with min > max is not restricted. (1, -1, 1, -1, 1, -1), all particles, by default.
+   * inside are kept. An axis of 0 0, or with min > max, is not restricted. (1, -1, 1, -1, 1, -1), all particles, by default.
    */
   vtkSetVector6Macro(RegionOfInterest, double);
   vtkGetVector6Macro(RegionOfInterest, double);

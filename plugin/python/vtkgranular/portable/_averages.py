@@ -10,13 +10,12 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataObjectTypes
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkExtentTranslator
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-from .. import _library as c
 from ._algorithm import piece_of
 from ._arrays import Table, cells, numbers, pass_piece, pass_rows
 from ._contents import Content, add_lines, lines, particles, places, values_of
 from ._filters import Filter
 from ._frames import InputFrames
-from ._ranks import everyone, is_own_piece
+from ._ranks import is_own_piece, own_piece
 
 
 class GranularContactSums(Filter):
@@ -120,26 +119,30 @@ class GranularEulerAverage(_Average):
         self._times: list[float] = []
         self.data, self.piece = [None], (0, 1)
 
+    @property
+    def output(self) -> int:
+        return self.values["Output"]
+
     def settings(self) -> dict[str, Any]:
         return {**super().settings(), **self._extra}
 
     def RequestDataObject(self, request: Any, inputs: Any, outputs: Any) -> int:
-        return self.set_output(outputs, ("vtkPolyData", "vtkImageData", "vtkTable")[self.values["Output"]])
+        return self.set_output(outputs, ("vtkPolyData", "vtkImageData", "vtkTable")[self.output])
 
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:
         info = outputs.GetInformationObject(0)
         keys = [vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), Pipeline.WHOLE_EXTENT()]
         for key in keys + ([Pipeline.TIME_STEPS(), Pipeline.TIME_RANGE()] if self.values["TimeAverage"] else []):
             info.Remove(key)
-        if self.values["Output"] != _IMAGE:
+        if self.output != _IMAGE:
             return super().RequestInformation(request, inputs, outputs)
 
         def work() -> None:
-            self.data, self._extra = [None], {"GridOnly": 1}
+            self.data, self._extra, self.piece = [None], {"GridOnly": 1}, own_piece()
             try:
                 counts = vtk_to_numpy(super(GranularEulerAverage, self).apply()[0].arrays["counts"]).ravel()
             finally:
-                self._extra = {}
+                self._close()
             self._whole = tuple(int(bound) for count in counts for bound in (0, count))
             info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
             info.Set(Pipeline.WHOLE_EXTENT(), self._whole, 6)
@@ -160,21 +163,26 @@ class GranularEulerAverage(_Average):
         return tuple(asked)
 
     def apply(self, split: bool = False, times: Sequence[float] = (), shown: int = 0) -> list[Table]:
-        self._extra = {"CellRange": self._extent} if self.values["Output"] == _IMAGE else {}
+        if self.output == _IMAGE:
+            self._extra = {"CellRange": self._extent, "CellsBy": 0, "CellCounts": self._whole[1::2]}
         try:
             if not self.values["TimeAverage"]:
                 return super().apply()
             self._frames = {port: InputFrames(self, port, self.piece_of_inputs(self.piece)) for port in range(3) if self.data[port]}
-            self._times = self._frames[0].times()
-            if any(times != self._times for times in everyone(self._times)):
-                raise c.Error("expected the time steps of the first process, got others")
+            self._times = self._frames[0].shared_times()
             return super().apply(times=self._times)
         finally:
-            for one in self._frames.values():
-                one.close()
-            self._extra, self._frames = {}, {}
+            self._close()
+
+    def _close(self) -> None:
+        for one in self._frames.values():
+            one.close()
+        self._extra, self._frames = {}, {}
 
     def take(self, port: int, frame: int) -> Content | None:
+        if "GridOnly" in self._extra:  # cells that follow from a frame: the last one, because runs often begin without particles
+            self._frames[port] = InputFrames(self, port, self.piece)
+            self._times = self._frames[port].shared_times()[-1:]
         if port in self._frames:
             self._frames[port].update(self._times[frame] if self._times else None)
             self.data[port] = self._frames[port].data()
@@ -182,11 +190,11 @@ class GranularEulerAverage(_Average):
 
     def fill(self, tables: list[Table], outputs: list[Any]) -> None:
         (table, facts), output = tables, outputs[0]
-        if self.values["Output"] == _POINTS:
+        if self.output == _POINTS:
             output.SetPoints(table.points)
             output.SetVerts(cells(table.points.GetNumberOfPoints(), 1))
             attributes = output.GetPointData()
-        elif self.values["Output"] == _PROFILE:
+        elif self.output == _PROFILE:
             attributes = output.GetRowData()
             centres = vtk_to_numpy(table.points.GetData())
             attributes.AddArray(numbers("position", centres[:, self.values["ProfileAxis"]]))
@@ -212,4 +220,8 @@ class GranularEulerAverage(_Average):
             fields.RemoveArray(name)
 
 
-AVERAGES = {f"vtk{made.__name__}": made for made in (GranularContactSums, GranularPointAverage, GranularEulerAverage)}
+class GranularProfile(GranularEulerAverage):
+    output = _PROFILE
+
+
+AVERAGES = {f"vtk{made.__name__}": made for made in (GranularContactSums, GranularPointAverage, GranularEulerAverage, GranularProfile)}

@@ -12,7 +12,8 @@ from ._missing import PROPERTIES
 MODULE = __package__
 
 _BASES = ("internal_sources", "internal_filters", "internal_writers")
-_TAGS = {"GranularLocalReaderProxy": "SourceProxy", "GranularParticleReaderProxy": "SourceProxy", "PWriterProxy": "WriterProxy"}
+_TAGS = {"GranularLocalReaderProxy": "SourceProxy", "GranularParticleReaderProxy": "SourceProxy", "PWriterProxy": "WriterProxy",
+         "GranularMenuProxy": "SourceProxy"}
 
 #: Spheres by ParaView's own Point Gaussian, with the radii of the point array `radius`, as a representation of all points.
 _REPRESENTATIONS = """

@@ -59,10 +59,15 @@ def no_garbage_collected() -> Iterator[None]:
             gc.enable()
 
 
-def is_own_piece(piece: tuple[int, int]) -> bool:
-    """Returns true if a rank asks for the part that it has of what all have."""
+def own_piece() -> tuple[int, int]:
+    """Returns the part that a rank has of what all have: its number, and how many there are."""
     ranks = ranks_of_paraview()
-    return piece == ((ranks.Get_rank(), ranks.Get_size()) if ranks else (0, 1))
+    return (ranks.Get_rank(), ranks.Get_size()) if ranks else (0, 1)
+
+
+def is_own_piece(piece: tuple[int, int]) -> bool:
+    """Returns true if a rank asks for that part."""
+    return piece == own_piece()
 
 
 def is_first() -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDataArraySelection, vtkPoints
+from vtkmodules.vtkCommonCore import vtkAbstractArray, vtkDataArraySelection, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData, vtkPartitionedDataSet, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkExtentTranslator
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
@@ -145,6 +145,7 @@ class Reader(Algorithm):
             self.fill(run, number, {"piece": piece, "pieces": pieces}, datasets)
             for data in datasets:
                 data.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), float(run.times[number]))
+                _hide_facts(data.GetFieldData())
 
         return self._guarded(work, outputs)
 
@@ -180,6 +181,14 @@ def _expect_files(paths: list[str]) -> None:
             os.stat(path)
         except OSError as error:
             raise c.Error(f"{c.shown(path)}: cannot open: {error.strerror}") from None
+
+
+def _hide_facts(fields: Any) -> None:
+    """Keeps what describes a frame, such as its box, out of ParaView's lists of colours."""
+    for i in range(fields.GetNumberOfArrays()):
+        array = fields.GetAbstractArray(i)
+        if array.GetName() != "imbalance":
+            array.GetInformation().Set(vtkAbstractArray.GUI_HIDE(), 1)
 
 
 def _columns(run: Run, number: int, table: int) -> list[tuple[str, bool]]:
