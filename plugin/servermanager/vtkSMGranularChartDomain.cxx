@@ -18,27 +18,35 @@ bool Fits(vtkPVXMLElement* hint, const char* attribute, const std::string& name)
   return !expression.empty() && std::regex_search(name, std::regex(expression));
 }
 
-// Sets a property of texts of series - name, text, name, ... - to its defaults, but for series that one of the expressions of the hint fits.
-void SetSeries(vtkSMProxy* display, const char* property, vtkPVXMLElement* hint,
-  const std::string& shown, const char* hidden)
+// Sets a property of texts of series - name, text, name, ... - for the series that an expression of the hint fits.
+void SetSeries(vtkSMProxy* display, const char* property, vtkPVXMLElement* hint, const char* which,
+  const std::string& text)
 {
   if (vtkSMProperty* series = display->GetProperty(property))
   {
-    series->ResetToDomainDefaults();
     vtkSMPropertyHelper texts(series);
     for (unsigned int i = 0; i + 1 < texts.GetNumberOfElements(); i += 2)
     {
-      const std::string name = texts.GetAsString(i);
-      if (Fits(hint, "show", name))
+      if (Fits(hint, which, texts.GetAsString(i)))
       {
-        texts.Set(i + 1, shown.empty() ? name.c_str() : shown.c_str());
-      }
-      else if (hidden && Fits(hint, "hide", name))
-      {
-        texts.Set(i + 1, hidden);
+        texts.Set(i + 1, text.c_str());
       }
     }
   }
+}
+
+// Returns true if a series - of a name, or of any - has one of some states: "1", visible, or "0".
+bool HasSeries(vtkSMProxy* display, const std::string& name, const std::string& states)
+{
+  const vtkSMPropertyHelper texts(display, "SeriesVisibility", true);
+  bool found = false;
+  for (unsigned int i = 0; i + 1 < texts.GetNumberOfElements(); i += 2)
+  {
+    found = found ||
+      ((name.empty() || name == texts.GetAsString(i)) &&
+        states.find(texts.GetAsString(i + 1)) != std::string::npos);
+  }
+  return found;
 }
 }
 
@@ -53,10 +61,30 @@ int vtkSMGranularChartDomain::SetDefaultValues(vtkSMProperty* property, bool)
   vtkPVXMLElement* hint = hints ? hints->FindNestedElementByName("Chart") : nullptr;
   if (display && hint)
   {
+    for (const char* const name : { "SeriesVisibility", "SeriesLabel" })
+    {
+      if (vtkSMProperty* series = display->GetProperty(name))
+      {
+        series->ResetToDomainDefaults();
+      }
+    }
+    const char* axis = hint->GetAttributeOrEmpty("x");
+    if (!HasSeries(display, axis, "01"))
+    {
+      return 1; // as with other tables
+    }
     vtkSMPropertyHelper(display, "UseIndexForXAxis", true).Set(0);
-    vtkSMPropertyHelper(display, "XArrayName", true).Set(hint->GetAttributeOrEmpty("x"));
-    SetSeries(display, "SeriesVisibility", hint, "1", "0");
-    SetSeries(display, "SeriesLabel", hint, hint->GetAttributeOrEmpty("label"), nullptr);
+    vtkSMPropertyHelper(display, "XArrayName", true).Set(axis);
+    SetSeries(display, "SeriesVisibility", hint, "hide", "0");
+    SetSeries(display, "SeriesVisibility", hint, "show", "1");
+    if (!HasSeries(display, {}, "1"))
+    {
+      SetSeries(display, "SeriesVisibility", hint, "otherwise", "1");
+    }
+    if (hint->GetAttribute("label"))
+    {
+      SetSeries(display, "SeriesLabel", hint, "show", hint->GetAttribute("label"));
+    }
   }
   return 1;
 }

@@ -7,8 +7,8 @@
  *
  *   <Chart x="time" show="^position .*_Z$" hide="^(timestep|position .*)$"/>
  *
- * x: the column of the axis. show and hide: regular expressions; the first that fits the name of a series decides, and ParaView where none
- * does. label: a text for the series that show finds, instead of its name.
+ * x: the column of the axis. show and hide: regular expressions of names of series; ParaView decides on others. otherwise: those that are
+ * shown if no other is. label: a text for the series that show finds, instead of its name.
  *
  * Made for elements GranularChartDomain of the server manager's XML, of a property that charts have for it; the property Input is required.
  */

@@ -96,6 +96,19 @@ assert abs(bounds[4]) < 1e-12 and abs(bounds[5] - 30) < 1e-12 and bounds[1] > 11
 expect("tilted box", bounds[0::2], bounds[1::2])
 Delete(reader)
 
+# contacts: around the box where there are none, and around the lines later
+contacts = OpenDataFile(os.path.join(os.environ["GRANULAR_DATA"], "good", "local", "contacts.dump"))
+view.ViewTime = 0
+assert Show(contacts, view).Representation == "Contacts"
+Render(view)
+expect("box without contacts", [-0.05, -0.05, 0], [0.05, 0.05, 0.15])
+view.ViewTime = 4000
+Render(view)
+bounds = contacts.GetDataInformation().GetBounds()
+expect("contacts", bounds[0::2], bounds[1::2])
+view.ViewTime = 0
+Delete(contacts)
+
 # a filter that lets no particle through
 reader, _ = show(empty_first)
 Hide(reader, view)
