@@ -31,9 +31,8 @@ for name, (of_contacts, of_walls) in BEDS.items():
     contacts = vg.reader(data / f"{name}_contacts.dump.gz", ColumnMap=of_contacts)
     walls = vg.reader(*data.glob(f"{name}_walls.dump*"), ColumnMap=of_walls)
     # A row for each layer. Each contact gives a layer the part of its line in it.
-    profile = GranularEulerAverage(Input=particles, Lines=contacts, Walls=walls, Output="Profile",
-                                   CellCounts=[1, 1, round(TOP / LAYER)],
-                                   Bounds=[-SIDE / 2, SIDE / 2, -SIDE / 2, SIDE / 2, 0, TOP])
+    profile = GranularProfile(Input=particles, Lines=contacts, Walls=walls, Layers=round(TOP / LAYER),
+                              Bounds=[-SIDE / 2, SIDE / 2, -SIDE / 2, SIDE / 2, 0, TOP])
     bed, touched, layers = (vg.fetch(source) for source in (particles, walls, profile))
 
     z = layers["position"]
