@@ -92,7 +92,7 @@ for kind in ("Trajectories", "History"):
                 ({"Ids": "1;2"}, {"Ids": "1"}, "got '1;2'"),
                 ({"SelectionFrame": 31, "NumberOfSamples": 1}, {"SelectionFrame": 30}, "expected a SelectionFrame from -31 to 30, got 31"),
                 ({"SelectionFrame": -32}, {"SelectionFrame": -31}, "got -32"),
-                ({"TimeWindow": (5, 6)}, {"TimeWindow": (1, -1)}, "expected a TimeWindow with frames, got none from 5.000000 to 6.000000"),
+                ({"TimeWindow": (5, 6)}, {"TimeWindow": (1, -1)}, "expected a TimeWindow with frames, got none from 5 to 6"),
                 ({"Arrays": "v nothing"}, {"Arrays": "v"}, "expected an array 'nothing' of the particles, got none in any frame")):
             set_all(filter_, **bad)
             fails(filter_, *parts)

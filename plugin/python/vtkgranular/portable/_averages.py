@@ -110,7 +110,11 @@ class GranularPointAverage(_Average):
 _POINTS, _IMAGE, _PROFILE = range(3)
 
 
-class GranularEulerAverage(_Average):
+class _CellAverage(_Average):
+    """Base of the filters that average in cells."""
+
+    output = _PROFILE
+
     def __init__(self) -> None:
         super().__init__()
         self._extra: dict[str, Any] = {}  # settings beside the properties
@@ -118,10 +122,6 @@ class GranularEulerAverage(_Average):
         self._frames: dict[int, InputFrames] = {}
         self._times: list[float] = []
         self.data, self.piece = [None], (0, 1)
-
-    @property
-    def output(self) -> int:
-        return self.values["Output"]
 
     def settings(self) -> dict[str, Any]:
         return {**super().settings(), **self._extra}
@@ -137,10 +137,12 @@ class GranularEulerAverage(_Average):
         if self.output != _IMAGE:
             return super().RequestInformation(request, inputs, outputs)
 
+        self._whole = (0, -1) * 3
+
         def work() -> None:
             self.data, self._extra, self.piece = [None], {"GridOnly": 1}, own_piece()
             try:
-                counts = vtk_to_numpy(super(GranularEulerAverage, self).apply()[0].arrays["counts"]).ravel()
+                counts = vtk_to_numpy(super(_CellAverage, self).apply()[0].arrays["counts"]).ravel()
             finally:
                 self._close()
             self._whole = tuple(int(bound) for count in counts for bound in (0, count))
@@ -163,7 +165,7 @@ class GranularEulerAverage(_Average):
         return tuple(asked)
 
     def apply(self, split: bool = False, times: Sequence[float] = (), shown: int = 0) -> list[Table]:
-        if self.output == _IMAGE:
+        if self.output == _IMAGE and self._whole[1] > 0:
             self._extra = {"CellRange": self._extent, "CellsBy": 0, "CellCounts": self._whole[1::2]}
         try:
             if not self.values["TimeAverage"]:
@@ -220,8 +222,14 @@ class GranularEulerAverage(_Average):
             fields.RemoveArray(name)
 
 
-class GranularProfile(GranularEulerAverage):
-    output = _PROFILE
+class GranularEulerAverage(_CellAverage):
+    @property
+    def output(self) -> int:
+        return self.values["Output"]
+
+
+class GranularProfile(_CellAverage):
+    pass
 
 
 AVERAGES = {f"vtk{made.__name__}": made for made in (GranularContactSums, GranularPointAverage, GranularEulerAverage, GranularProfile)}

@@ -83,7 +83,7 @@ class Reader(Algorithm):
             elif option.type == "choice":
                 value = _CHOICES.get(option.property, option.choices)[value]
             elif option.type == "region":
-                value = [pair if pair[0] <= pair[1] else None for pair in (value[:2], value[2:4], value[4:])]
+                value = [pair if pair[0] <= pair[1] and any(pair) else None for pair in (value[:2], value[2:4], value[4:])]
             given[option.name] = value
         given["threads"] = given.get("threads") or threads_of_rank()
         return given
