@@ -252,8 +252,9 @@ TEST(FileSeries, BoundingBoxesAreNoFrames)
   EXPECT_EQ(run.steps(), Steps{ 100 });
   EXPECT_EQ(error_of([&] { run.update({ files[3] }); }),
     files[3] +
-      ": expected a dump, got a VTK file: ParaView opens it under a name like NAME.vtk "
-      "(LegacyVTKReader in Python); the filters of vtk-granular take particles in it");
+      ": expected a dump, got a VTK file: GranularVTKParticleReader opens particles in it, and "
+      "GranularMeshReader walls, "
+      "under a name like NAME.vtk");
 }
 
 TEST(FileSeries, OneOfThreeFilesIsNoDump)

@@ -19,10 +19,11 @@ constexpr const char* converted =
   "if a dump command wrote it, OVITO converts it to a dump; or run again with `dump custom`";
 constexpr const char* archived = "unpack it, and open the files in it";
 constexpr const char* unpacked = "unpack it first; only gzip and Zstandard need no unpacking";
-constexpr const char* opened = "ParaView opens it";
+constexpr const char* opened =
+  "GranularVTKParticleReader opens particles in it, and GranularMeshReader walls,";
 constexpr const char* downloaded = "a download has probably gone wrong; download the file itself";
 constexpr const char* logged = "vtkgranular.read_log reads it in Python";
-constexpr const char* averaged = "it holds no particles; a spreadsheet or numpy reads the numbers";
+constexpr const char* tabled = "vtkgranular.read_table reads it in Python";
 constexpr const char* run = "run it, and open the files that its dump commands write";
 
 /// The beginning of a file, and the file.
@@ -80,7 +81,7 @@ enum class Taken : std::uint8_t
 {
   No,
   Yes, ///< by ParaView, or by a reader of ours for the sake of the error
-  Vtk  ///< by ParaView's reader in `advice`; some files are read by kinds of their own
+  Vtk  ///< by a reader for VTK files; some files are read by kinds of their own
 };
 
 /// Signs of a file: those that are given must all be there.
@@ -112,40 +113,40 @@ constexpr Sign binary[] = {
   { 0, "CDF\x02", "", "a NetCDF file", converted, Taken::No, is_no_dump },
   { 0, "CDF\x05", "", "a NetCDF file", converted, Taken::No, is_no_dump },
   { 0, "\x89HDF\r\n", "_NCProperties", "a NetCDF file (HDF5)", converted },
-  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file", " under a name like NAME.hdf (VTKHDFReader in Python)", Taken::Vtk },
+  { 0, "\x89HDF\r\n", "VTKHDF", "a VTK file", "ParaView opens it under a name like NAME.hdf (VTKHDFReader in Python)", Taken::Vtk },
   { 0, "\x89HDF\r\n", "", "an HDF5 file (as H5MD is)", "h5py reads it in Python; or run again with `dump custom`" },
-  { 0, "", "", "a mesh (binary STL)", "ParaView opens it under a name like NAME.stl", Taken::Yes, is_binary_stl },
+  { 0, "", "", "a mesh (binary STL)", "GranularMeshReader opens it under a name like NAME.stl", Taken::Yes, is_binary_stl },
 };
 
 /// In small letters, as texts are compared.
 constexpr Sign texts[] = {
-  { 0, "# vtk datafile", "", "a VTK file", " under a name like NAME.vtk (LegacyVTKReader in Python)", Taken::Vtk },
-  { 0, "<", " type='polydata'", "a VTK file", " under a name like NAME.vtp (XMLPolyDataReader in Python)", Taken::Vtk },
-  { 0, "<", " type='unstructuredgrid'", "a VTK file", " under a name like NAME.vtu (XMLUnstructuredGridReader in Python)", Taken::Vtk },
-  { 0, "<", " type='imagedata'", "a VTK file", " under a name like NAME.vti (XMLImageDataReader in Python)", Taken::Vtk },
-  { 0, "<", " type='rectilineargrid'", "a VTK file", " under a name like NAME.vtr (XMLRectilinearGridReader in Python)", Taken::Vtk },
-  { 0, "<", " type='structuredgrid'", "a VTK file", " under a name like NAME.vts (XMLStructuredGridReader in Python)", Taken::Vtk },
-  { 0, "<", " type='vtkmultiblockdataset'", "a VTK file", " under a name like NAME.vtm (XMLMultiBlockDataReader in Python)", Taken::Vtk },
-  { 0, "<", " type='vtkpartitioneddataset'", "a VTK file", " under a name like NAME.vtpd (XMLPartitionedDatasetReader in Python)", Taken::Vtk },
-  { 0, "<", " type='vtkpartitioneddatasetcollection'", "a VTK file", " under a name like NAME.vtpc (XMLPartitionedDatasetCollectionReader in Python)",
+  { 0, "# vtk datafile", "", "a VTK file", " under a name like NAME.vtk", Taken::Vtk },
+  { 0, "<", " type='polydata'", "a VTK file", " under a name like NAME.vtp", Taken::Vtk },
+  { 0, "<", " type='unstructuredgrid'", "a VTK file", " under a name like NAME.vtu", Taken::Vtk },
+  { 0, "<", " type='imagedata'", "a VTK file", "ParaView opens it under a name like NAME.vti (XMLImageDataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='rectilineargrid'", "a VTK file", "ParaView opens it under a name like NAME.vtr (XMLRectilinearGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='structuredgrid'", "a VTK file", "ParaView opens it under a name like NAME.vts (XMLStructuredGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='vtkmultiblockdataset'", "a VTK file", " under a name like NAME.vtm", Taken::Vtk },
+  { 0, "<", " type='vtkpartitioneddataset'", "a VTK file", "ParaView opens it under a name like NAME.vtpd (XMLPartitionedDatasetReader in Python)", Taken::Vtk },
+  { 0, "<", " type='vtkpartitioneddatasetcollection'", "a VTK file", "ParaView opens it under a name like NAME.vtpc (XMLPartitionedDatasetCollectionReader in Python)",
     Taken::Vtk },
-  { 0, "<", " type='collection'", "a VTK file", " under a name like NAME.pvd (PVDReader in Python)", Taken::Vtk },
-  { 0, "<", " type='ppolydata'", "a VTK file", " under a name like NAME.pvtp (XMLPartitionedPolydataReader in Python)", Taken::Vtk },
-  { 0, "<", " type='punstructuredgrid'", "a VTK file", " under a name like NAME.pvtu (XMLPartitionedUnstructuredGridReader in Python)", Taken::Vtk },
-  { 0, "<", " type='pimagedata'", "a VTK file", " under a name like NAME.pvti (XMLPartitionedImageDataReader in Python)", Taken::Vtk },
-  { 0, "<", " type='prectilineargrid'", "a VTK file", " under a name like NAME.pvtr (XMLPartitionedRectilinearGridReader in Python)", Taken::Vtk },
-  { 0, "<", " type='pstructuredgrid'", "a VTK file", " under a name like NAME.pvts (XMLPartitionedStructuredGridReader in Python)", Taken::Vtk },
-  { 0, "<", "<vtkfile", "a VTK file", "", Taken::Vtk }, // of a type that is newer than this table
-  { 0, "solid", "facet", "a mesh (STL)", "ParaView opens it under a name like NAME.stl", Taken::Yes },
-  { 0, "ply\n", "", "a mesh (PLY)", "ParaView opens it under a name like NAME.ply", Taken::Yes },
+  { 0, "<", " type='collection'", "a VTK file", "ParaView opens it under a name like NAME.pvd (PVDReader in Python)", Taken::Vtk },
+  { 0, "<", " type='ppolydata'", "a VTK file", " under a name like NAME.pvtp", Taken::Vtk },
+  { 0, "<", " type='punstructuredgrid'", "a VTK file", " under a name like NAME.pvtu", Taken::Vtk },
+  { 0, "<", " type='pimagedata'", "a VTK file", "ParaView opens it under a name like NAME.pvti (XMLPartitionedImageDataReader in Python)", Taken::Vtk },
+  { 0, "<", " type='prectilineargrid'", "a VTK file", "ParaView opens it under a name like NAME.pvtr (XMLPartitionedRectilinearGridReader in Python)", Taken::Vtk },
+  { 0, "<", " type='pstructuredgrid'", "a VTK file", "ParaView opens it under a name like NAME.pvts (XMLPartitionedStructuredGridReader in Python)", Taken::Vtk },
+  { 0, "<", "<vtkfile", "a VTK file", "ParaView opens it", Taken::Vtk }, // of a type that is newer than this table
+  { 0, "solid", "facet", "a mesh (STL)", "GranularMeshReader opens it under a name like NAME.stl", Taken::Yes },
+  { 0, "ply\n", "", "a mesh (PLY)", "GranularMeshReader opens it under a name like NAME.ply", Taken::Yes },
   { 0, "<", "<!doctype html", "a web page", downloaded },
   { 0, "<", "<html", "a web page", downloaded },
   { 0, "number of particles =", "", "a file of AtomEye (`dump cfg`)", converted },
   { 0, "---", "natoms:", "a file of `dump yaml`", "PyYAML reads it in Python; or run again with `dump custom`" },
   { 0, "---", "keywords:", "a thermo table in YAML", logged },
-  { 0, "#", "\nkeywords:", "averages of a fix in YAML", logged },
-  { 0, "#", "# timestep", "averages of a fix (ave/time, ave/chunk, ave/histo)", averaged },
-  { 0, "# fix print output", "", "a table of fix print", averaged },
+  { 0, "#", "\nkeywords:", "averages of a fix in YAML", tabled },
+  { 0, "#", "# timestep", "averages of a fix (ave/time, ave/chunk, ave/histo)", tabled },
+  { 0, "# fix print output", "", "a table of fix print", tabled },
   { 0, "lammps (", "", "a log of LAMMPS", logged },
   { 0, "liggghts (", "", "a log of LIGGGHTS", logged },
   { 0, "", "\nlammps (", "a log of LAMMPS", logged },
@@ -212,8 +213,8 @@ std::optional<OtherFile> find_other(const ByteSource& source, bool may_be_rows)
   const bool is_unpacked =
     sign->advice == downloaded || std::string_view(sign->advice).starts_with("unpack");
   return OtherFile{ sign->what + std::string(packed ? " inside gzip or Zstandard: " : ": ") +
-      (packed && !is_unpacked ? "unpack it, and " : "") + (is_vtk ? opened : "") + sign->advice +
-      (is_vtk ? "; the filters of vtk-granular take particles in it" : ""),
+      (packed && !is_unpacked ? "unpack it, and " : "") + (*sign->advice == ' ' ? opened : "") +
+      sign->advice,
     is_vtk, is_taken && !packed };
 }
 

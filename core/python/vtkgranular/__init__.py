@@ -8,8 +8,9 @@ Arrays, with numpy alone:
     run.read(columns=["id", "v"], stride=10)  a part of a frame
     vtkgranular.write("new.dump", {"points": x}) a file from arrays or frames
     vtkgranular.read_log("log.liggghts")         the thermo output of a run: its columns as arrays
+    vtkgranular.read_table("ave_time.dat")       a table of a fix: its columns as arrays
     vtkgranular.kind_of("post/run.dump")         what a file is, by its contents
-    vtkgranular.Run, Frame, Box, Writer, Log, Error, Remark   what these return, take, raise and warn of
+    vtkgranular.Run, Frame, Box, Writer, Log, Table, Error, Remark   what these return, take, raise and warn of
 
 Open, show, fetch and save with paraview.simple:
 
@@ -49,6 +50,7 @@ from ._files import files
 from ._folders import VERSION as __version__
 from ._library import ArgumentError, Cancelled, ColumnError, Error, Remark
 from ._log import Log, LogTable, read_log
+from ._table import Table, read_table
 from ._run import Box, Frame, Run, kind_of, open  # noqa: A004 (vtkgranular.open, as there are gzip.open and wave.open)
 from ._write import Writer, write
 
@@ -76,7 +78,7 @@ _LATER = {"fetch": "_fetch", "film": "_film", "history": "_history", "label_form
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
 __all__ = ["__version__", "fetch", "files", "film", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
-           "process_ids", "pvbatch", "read_log", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write",
+           "process_ids", "pvbatch", "read_log", "read_table", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write",
            "write_series"]
 
 

@@ -49,7 +49,8 @@ class Lines:
     notes         lines, or 0, and what is left out there
     """
 
-    def __init__(self, path: str):
+    def __init__(self, path: str, what: str = "log"):
+        self._what = what
         self.path, self.line, self.number, self._ahead = path, b"", 0, 0
         self.notes: list[tuple[int, str]] = []
         self._lines = self._read()
@@ -80,7 +81,7 @@ class Lines:
             try:
                 head = stream.peek(1024)[:1024]
                 if b"\0" in head:
-                    self.fail("expected the text of a log, got a binary file", byte=head.index(b"\0"))
+                    self.fail(f"expected the text of a {self._what}, got a binary file", byte=head.index(b"\0"))
                 while line := stream.readline(_LONGEST_LINE):
                     count += len(line)
                     self._ahead += 1
@@ -92,7 +93,7 @@ class Lines:
                     if not line.isspace():
                         yield line + b"\n" if packed and line[-1:] != b"\n" else line  # a checksum says that it is whole
                 if count == 0:
-                    self.fail("expected a log, got an empty file")
+                    self.fail(f"expected a {self._what}, got an empty file")
             except EOFError:
                 text = f"expected complete {packed} data, got data that end early"
                 if count == 0:

@@ -71,6 +71,14 @@ class LogTable:
         return f"<{len(self)} rows from {os.path.basename(self.path)}:{self.line}: {' '.join(self)}>"
 
 
+def last_of_each(steps: numpy.ndarray) -> numpy.ndarray:
+    """Returns the places of the last row of each timestep, in the order of timesteps."""
+    import numpy
+
+    order = numpy.argsort(steps, kind="stable")
+    return order[numpy.append(steps[order][1:] != steps[order][:-1], True)]
+
+
 class Log(LogTable):
     """The thermo output of a simulation, from vtkgranular.read_log: a LogTable with each timestep once, in ascending order.
 
@@ -87,9 +95,7 @@ class Log(LogTable):
 
         self.paths, self.runs = paths, [LogTable([run], own) for run, own in zip(runs, times)]
         self.all_rows = LogTable(runs, numpy.concatenate(times), is_all=True)
-        steps = self.all_rows.steps
-        order = numpy.argsort(steps, kind="stable")
-        self._kept = order[numpy.append(steps[order][1:] != steps[order][:-1], True)]
+        self._kept = last_of_each(self.all_rows.steps)
         super().__init__(runs, self.all_rows.times[self._kept])
 
     def _column(self, name: str) -> numpy.ndarray:
@@ -177,6 +183,12 @@ def _with_steps(readers: list[LogReader], given: float | None) -> list[LogRun]:
     return [run for reader in readers for run in reader.runs if run.steps]
 
 
+def expect_dt(dt: float | None) -> None:
+    """Raises ArgumentError for a time of a timestep that cannot be."""
+    if dt is not None and not 0 < float(dt) < math.inf:
+        raise c.ArgumentError(f"expected a dt that is finite and greater than 0, got {dt}")
+
+
 def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None) -> Log:
     """Reads the thermo tables of a log of LAMMPS or LIGGGHTS, and returns them as a Log. Needs numpy alone.
 
@@ -203,8 +215,7 @@ def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], d
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     if not given:
         raise c.ArgumentError("expected at least one log, got none")
-    if dt is not None and not 0 < float(dt) < math.inf:
-        raise c.ArgumentError(f"expected a dt that is finite and greater than 0, got {dt}")
+    expect_dt(dt)
     readers = [LogReader(os.path.abspath(os.fsdecode(path))) for path in given]
     for reader in readers:
         reader.read()

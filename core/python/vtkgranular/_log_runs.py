@@ -42,6 +42,24 @@ _KEYWORD = re.compile(rb"""\s*(?:"([^"]*)"|'([^']*)'|([^\s,][^,]*))""")
 _LARGEST = (1 << 63) - 1
 
 
+def names_of(keywords: bytes) -> list[str]:
+    """Returns the names in a list of YAML."""
+    return [os.fsdecode(b"".join(ways).strip()) for ways in _KEYWORD.findall(keywords)]
+
+
+def unique_names(names: Iterable[str]) -> list[str]:
+    """Returns names for columns: the second one of the same name is NAME#2."""
+    counts: Counter[str] = Counter()
+    found: dict[str, None] = {}
+    for name in names:
+        unique = name
+        while unique in found:
+            counts[name] += 1
+            unique = f"{name}#{counts[name] + 1}"
+        found[unique] = None
+    return [*found]
+
+
 def _numbers(words: list[bytes]) -> list[float]:
     """Returns the numbers that words spell, or none. Python would take 1_0 for a number, too."""
     try:
@@ -74,17 +92,11 @@ class LogRun:
         """Returns true if a row has so many words. The first row chooses names; `... RDN PEN`, which NEB prints, stands for any number."""
         if self.steps:
             return count == self.width
-        words, counts, names = self.ways[0], Counter(), {}
+        words = self.ways[0]
         known = words.index("...") if "..." in words else count + 1
         way = [*words[:known], *map(str, range(known + 1, count + 1))] if known <= count else \
             next((way for way in self.ways if len(way) == count), [])
-        for name in way:
-            unique = name
-            while unique in names:
-                counts[name] += 1
-                unique = f"{name}#{counts[name] + 1}"
-            names[unique] = None
-        self.names, self.at = tuple(names), way.index("Step") if "Step" in way else None
+        self.names, self.at = tuple(unique_names(way)), way.index("Step") if "Step" in way else None
         return bool(way)
 
     def fits(self, line: bytes, words: list[bytes]) -> bool:
@@ -270,7 +282,7 @@ class LogReader(Lines):
 
     def _on_keywords(self, found: Any) -> None:
         self._end()
-        self._run = self._new([[b"".join(ways).strip() for ways in _KEYWORD.findall(found["keywords"])]])
+        self._run = self._new([[os.fsencode(name) for name in names_of(found["keywords"])]])
 
     def _on_row(self, found: Any) -> None:
         """Takes a list in YAML. From now on, a line without brackets is no row, unless it is indented."""
