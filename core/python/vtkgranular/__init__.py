@@ -4,18 +4,20 @@
 Arrays, with numpy alone:
 
     run = vtkgranular.open("post/*.dump", dt=2e-5)   the frames of a run
+    print(vtkgranular.open("post/"))             what is in the folder of a run
     run[-1]["v"]                              an array of the last frame
     run.read(columns=["id", "v"], stride=10)  a part of a frame
     vtkgranular.write("new.dump", {"points": x}) a file from arrays or frames
     vtkgranular.read_log("log.liggghts")         the thermo output of a run: its columns as arrays
     vtkgranular.read_table("ave_time.dat")       a table of a fix: its columns as arrays
     vtkgranular.kind_of("post/run.dump")         what a file is, by its contents
-    vtkgranular.Run, Frame, Box, Writer, Log, Table, Error, Remark   what these return, take, raise and warn of
+    vtkgranular.Run, Frame, Box, Folder, Writer, Log, Table, Error, Remark   what these return, take, raise and warn of
 
 Open, show, fetch and save with paraview.simple:
 
     vtkgranular.reader("post/*.dump", dt=2e-5)   the reader that fits the files
     vtkgranular.show(reader, color="v", box=True)   particles as spheres, and the simulation box
+    vtkgranular.show_run("post/")                particles, box, walls and contacts of a folder, on one clock
     vtkgranular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
     vtkgranular.history(reader, [1, 7], "v")     places and arrays of particles at all times
     vtkgranular.save(filter, "run.dump")         a file of the format that fits the data and the name
@@ -47,6 +49,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from ._files import files
+from ._folder import Folder, Series
 from ._folders import VERSION as __version__
 from ._library import ArgumentError, Cancelled, ColumnError, Error, Remark
 from ._log import Log, LogTable, read_log
@@ -66,6 +69,7 @@ if TYPE_CHECKING:
     from ._save import save
     from ._series import write_series
     from ._show import show
+    from ._show_run import show_run
     from ._state import load_state
     from ._versions import label_format, preset, process_ids, set_properties
     from .vtkGranular import *  # noqa: F403 (the compiled classes, which have stubs)
@@ -73,12 +77,13 @@ if TYPE_CHECKING:
 # Functions of scripts of ParaView, and their modules, which are imported when the first of theirs is asked for.
 _LATER = {"fetch": "_fetch", "film": "_film", "history": "_history", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state",
           "pool_limit": "_pool", "preset": "_versions", "process_ids": "_versions", "pvbatch": "_ranks", "reader": "_reader",
-          "save": "_save", "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show", "update": "_errors",
+          "save": "_save", "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show",
+          "show_run": "_show_run", "update": "_errors",
           "write_series": "_series"}
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
 __all__ = ["__version__", "fetch", "files", "film", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
-           "process_ids", "pvbatch", "read_log", "read_table", "reader", "save", "set_pool_limit", "set_properties", "show", "update", "write",
+           "process_ids", "pvbatch", "read_log", "read_table", "reader", "save", "set_pool_limit", "set_properties", "show", "show_run", "update", "write",
            "write_series"]
 
 

@@ -955,11 +955,12 @@ def _region(given: Any) -> list[float]:
 def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None, *, ranks: Any = None,
          kind: str | None = None, column_names: str | Iterable[str] = "", preset: str = "", column_map: str | Iterable[str] = "",
          atom_style: str = "", boundary: str = "", history_layout: str = "automatic", repeated_steps: str = "auto",
-         threads: int = 0, progress: Callable[[float], Any] | None = None) -> Run:
-    """Opens files of a simulation and returns their frames as a Run. Needs neither VTK nor ParaView.
+         threads: int = 0, progress: Callable[[float], Any] | None = None) -> Any:
+    """Opens files of a simulation and returns their frames as a Run; of a folder, what is in it as a Folder. Needs neither VTK nor ParaView.
 
-    paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files. Dumps in every form, contacts
-                    and bonds (dump local), restart files, data files, decompositions, Euler cells and grids are told apart by their contents.
+    paths           a file, a pattern such as "post/*.dump", or a list of these; see vtkgranular.files; or a folder, "post/". Dumps
+                    in every form, contacts and bonds (dump local), restart files, data files, decompositions, Euler cells and grids
+                    are told apart by their contents.
     kind            "dump", "local", "restart", "data", "euler", "decomposition" or "grid"; None (default): as the contents say
     dt              time of one timestep, greater than 0, in the unit of the run; by default 1, unless the files hold times
     column_names    columns of dumps that do not name them, binary or without headers: "id type x y z vx vy vz"; or a list
@@ -986,6 +987,10 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
     are warnings, vtkgranular.Remark with path and line.
     """
     given = locals()
+    if not isinstance(paths, bytes) and isinstance(paths, (str, os.PathLike)) and os.path.isdir(paths):
+        from ._folder import Folder
+
+        return Folder(os.fspath(paths), dt)
     options = {name: given[name] for name in ("kind", *(option.name for option in FILES)) if given[name] not in (None, "")}
     files = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     return Run([os.path.abspath(os.fsdecode(path)) for path in files], options, progress, ranks)

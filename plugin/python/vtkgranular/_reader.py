@@ -9,13 +9,11 @@ from typing import Any, Iterable
 
 from ._errors import expect_utf8, raised
 from ._files import files
+from ._folder import MESHES
 from ._library import shown
 from ._options import READERS
 from ._plugin import expect_plugin, has_plugin
 from ._run import open as open_run
-
-#: Files of VTK and of surfaces, which the reader of meshes takes if no other does.
-_MESHES = {".vtk", ".vtp", ".vtu", ".vti", ".vtr", ".vts", ".vtm", ".pvtp", ".pvtu", ".pvti", ".pvtr", ".pvts", ".stl", ".ply"}
 
 
 def _names(paths: Iterable[str], remote: bool) -> list[str]:
@@ -43,7 +41,7 @@ def _find_reader(names: list[str], column_map: Any) -> str:
     from paraview import servermanager
 
     name = names[0]
-    is_mesh = os.path.splitext(name.removesuffix(".gz").removesuffix(".zst"))[1].lower() in _MESHES
+    is_mesh = os.path.splitext(name.removesuffix(".gz").removesuffix(".zst"))[1].lower() in MESHES
     more = [("GranularVTKParticleReader", each) for each in (name, names[-1]) if is_mesh]
     for reader, file in [*((reader, name) for reader in READERS), *more]:
         # not by NewProxy of the proxy manager, whose result Python never frees

@@ -34,7 +34,7 @@ Ctrl-C."""
 
 def add_files(parser: argparse.ArgumentParser) -> None:
     """Adds FILE... and what tells how to read them."""
-    parser.add_argument("files", metavar="FILE", nargs="+", help="name or pattern of the files of one run")
+    parser.add_argument("files", metavar="FILE", nargs="+", help="name or pattern of the files of one run; of info and show also a folder")
     parser.add_argument("--json", action="store_true", help="prints one JSON document, also of an error")
     add_reading(parser)
 

@@ -96,7 +96,41 @@ def _add_lines(renderer: Any, data: Any, name: str | None, width: float) -> None
     renderer.AddActor(actor)
 
 
-def _add_spheres(renderer: Any, frame: Any, data: Any, name: str | None) -> None:
+#: The modules and classes of VTK that read files with these endings; others are XML.
+_READERS = {".stl": ("vtkIOGeometry", "vtkSTLReader"), ".ply": ("vtkIOPLY", "vtkPLYReader"), ".vtk": ("vtkIOLegacy", "vtkGenericDataObjectReader")}
+
+
+def _read(path: str, centre: Any) -> Any:
+    """Returns the surface of a VTK or STL file, moved to the centre."""
+    import importlib
+
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+
+    module, name = _READERS.get(os.path.splitext(path)[1].lower(), ("vtkIOXML", "vtkXMLGenericDataObjectReader"))
+    reader, surface = getattr(importlib.import_module("vtkmodules." + module), name)(), vtkGeometryFilter()
+    reader.SetFileName(path)
+    surface.SetInputConnection(reader.GetOutputPort())
+    surface.Update()
+    data = surface.GetOutput()
+    if data.GetNumberOfPoints():
+        data.GetPoints().SetData(numpy_to_vtk(vtk_to_numpy(data.GetPoints().GetData()).astype(float) - centre, deep=True))
+    return data
+
+
+def _add_walls(renderer: Any, data: Any) -> None:
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputData(data)
+    mapper.ScalarVisibilityOff()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*_GREY)
+    actor.GetProperty().SetOpacity(0.3)
+    renderer.AddActor(actor)
+
+
+def _add_spheres(renderer: Any, data: Any, points: Any, radii: Any, name: str | None) -> None:
     """Spheres; the mapper reads points and radii as floats, whatever they are."""
     import numpy
     from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -104,15 +138,14 @@ def _add_spheres(renderer: Any, frame: Any, data: Any, name: str | None) -> None
     from vtkmodules.vtkRenderingCore import vtkActor
     from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
-    radii = frame.get("radius")
     if radii is None:  # half the mean distance
-        extents = frame.points.max(axis=0) - frame.points.min(axis=0)
+        extents = points.max(axis=0) - points.min(axis=0)
         extents = extents[extents > 0]
-        radii = numpy.full(frame.rows, 0.5 * (float(numpy.prod(extents)) / frame.rows) ** (1 / len(extents)) if len(extents) else 1.0)
+        radii = numpy.full(len(points), 0.5 * (float(numpy.prod(extents)) / len(points)) ** (1 / len(extents)) if len(extents) else 1.0)
     scales = numpy_to_vtk(numpy.asarray(radii, dtype=numpy.float32), deep=True, array_type=VTK_FLOAT)
     scales.SetName("drawn radius")
     data.GetPointData().AddArray(scales)
-    data.GetPoints().SetData(numpy_to_vtk((frame.points - _centre(frame)).astype(numpy.float32), deep=True, array_type=VTK_FLOAT))
+    data.GetPoints().SetData(numpy_to_vtk(points.astype(numpy.float32), deep=True, array_type=VTK_FLOAT))
     mapper, actor = vtkOpenGLSphereMapper(), vtkActor()
     mapper.SetInputData(data)
     mapper.SetScaleArray("drawn radius")
@@ -122,37 +155,64 @@ def _add_spheres(renderer: Any, frame: Any, data: Any, name: str | None) -> None
     renderer.AddActor(actor)
 
 
-def main() -> None:
-    """Draws what the input asks for, in JSON: files, options, frame, color, size, picture."""
+def _draw_frame(renderer: Any, given: dict[str, Any]) -> Any:
+    """Draws a frame of a run and its box, and returns the centre of the picture."""
     import numpy
-    import vtkmodules.vtkInteractionStyle
-    import vtkmodules.vtkRenderingFreeType
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
     from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
     import vtkgranular
 
-    given = json.load(sys.stdin)
     frame = vtkgranular.open(given["files"], **given["options"])[given["frame"]].read()
+    centre = _centre(frame)
+    if "lo" in frame and "hi" in frame:
+        boxes = numpy.array([_corners(lo - centre, numpy.diag(hi - lo))[0] for lo, hi in zip(frame["lo"], frame["hi"])])
+        _add_lines(renderer, _edges(boxes), None, 2)
+    elif frame.rows and frame._is_lines():
+        lines = frame.to_vtk()
+        lines.GetPoints().SetData(numpy_to_vtk(frame.points.reshape(-1, 3) - centre, deep=True))
+        _add_lines(renderer, lines, given["color"], 3)
+    elif frame.rows:
+        _add_spheres(renderer, frame.to_vtk(), frame.points - centre, frame.get("radius"), given["color"])
+    if frame.box is not None:
+        _add_lines(renderer, _edges(_corners(frame.box.origin - centre, frame.box.vectors)), None, 1.5)
+    return centre
+
+
+def _draw_file(renderer: Any, given: dict[str, Any]) -> Any:
+    """Draws particles of a VTK file and their box, and returns the centre of the picture."""
+    import numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    data = _read(given["files"][0], 0)
+    for bounds in [_read(path, 0).GetBounds() for path in given["boxes"]] or [data.GetBounds()]:
+        lo, hi = numpy.array(bounds[::2]), numpy.array(bounds[1::2])
+        centre = (lo + hi) / 2
+    if given["boxes"]:
+        _add_lines(renderer, _edges(_corners(lo - centre, numpy.diag(hi - lo))), None, 1.5)
+    radii = data.GetPointData().GetArray("radius")
+    if data.GetNumberOfPoints():
+        _add_spheres(renderer, data, vtk_to_numpy(data.GetPoints().GetData()) - centre, radii and vtk_to_numpy(radii), given["color"])
+    return centre
+
+
+def main() -> None:
+    """Draws what the input asks for, in JSON: files, options, frame, color, walls, size, picture."""
+    import vtkmodules.vtkInteractionStyle
+    import vtkmodules.vtkRenderingFreeType
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+    from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+
+    given = json.load(sys.stdin)
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(4)
     window.SetSize(*given["size"])
     window.AddRenderer(renderer)
-    if "lo" in frame and "hi" in frame:
-        boxes = numpy.array([_corners(lo - _centre(frame), numpy.diag(hi - lo))[0] for lo, hi in zip(frame["lo"], frame["hi"])])
-        _add_lines(renderer, _edges(boxes), None, 2)
-    elif frame.rows and frame._is_lines():
-        lines = frame.to_vtk()
-        lines.GetPoints().SetData(numpy_to_vtk(frame.points.reshape(-1, 3) - _centre(frame), deep=True))
-        _add_lines(renderer, lines, given["color"], 3)
-    elif frame.rows:
-        _add_spheres(renderer, frame, frame.to_vtk(), given["color"])
-    if frame.box is not None:
-        _add_lines(renderer, _edges(_corners(frame.box.origin - _centre(frame), frame.box.vectors)), None, 1.5)
+    centre = (_draw_file if given["frame"] is None else _draw_frame)(renderer, given)
+    for path in given["walls"]:
+        _add_walls(renderer, _read(path, centre))
     camera = renderer.GetActiveCamera()
     camera.SetPosition(0.6, -1, 0.45)
     camera.SetFocalPoint(0, 0, 0)

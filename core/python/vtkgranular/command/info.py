@@ -5,9 +5,11 @@ Only headers are read, so large files take no longer than the search for their f
 from __future__ import annotations
 
 import argparse
+import os
 from collections import Counter
 from typing import Any
 
+from .._folder import Folder, span, steps_text
 from .._library import shown
 from . import add_files, json_text, notices, open_run, say
 
@@ -87,13 +89,6 @@ def oddities(steps: Any, rows: Any) -> list[str]:
     return found
 
 
-def span(values: list[Any], form: str = "") -> str:
-    """Returns 'first to last'."""
-    if not values:
-        return "none"
-    return f"{values[0]:{form}}" if values[0] == values[-1] else f"{values[0]:{form}} to {values[-1]:{form}}"
-
-
 def print_facts(found: dict[str, Any], name: str) -> None:
     """Prints what was found in words."""
     dialect = f", {found['dialect']}" if found.get("dialect") else ""
@@ -102,8 +97,7 @@ def print_facts(found: dict[str, Any], name: str) -> None:
     if found["frames"]:
         rows = sorted(found["rows"])
         steps = found["steps"]
-        gaps = {b - a for a, b in zip(steps, steps[1:])}
-        lines.append(("steps", span(steps) + (f", every {gaps.pop()}" if len(gaps) == 1 else "")))
+        lines.append(("steps", steps_text(steps)))
         if found["times"] != steps:
             lines.append(("times", span(found["times"], "g")))
         lines.append(("rows", span(rows)))
@@ -129,8 +123,19 @@ def print_facts(found: dict[str, Any], name: str) -> None:
         print(f"  {word:9}{shown(text)}")
 
 
+def folder_facts(folder: Folder) -> dict[str, Any]:
+    """Returns what is known of a folder."""
+    return {"dt": folder.dt, "dt_path": folder.dt_path, "remarks": folder.remarks, "series": [
+        {"name": each.name, "kind": each.kind, "about": each.about, "files": len(each.files), "bytes": each.bytes, "steps": each.steps,
+         "times": each.times(folder.dt), "columns": each.columns} for each in folder.values()]}
+
+
 def run(arguments: argparse.Namespace) -> None:
-    """Prints what the files hold."""
+    """Prints what the files hold, or what is in a folder."""
+    if len(arguments.files) == 1 and os.path.isdir(arguments.files[0]):
+        folder = Folder(arguments.files[0], arguments.dt)
+        print(json_text({"given": arguments.files, **folder_facts(folder)}) if arguments.json else folder)
+        return
     with notices() as said, open_run(arguments) as opened:
         found = facts(opened)
     found["odd"] = said + found["odd"]

@@ -9,7 +9,9 @@ import os
 import shutil
 import subprocess
 import sys
+from typing import Any
 
+from .._folder import Folder
 from .._whole_file import whole_file
 from . import add_files, chosen, json_text, open_run
 
@@ -43,27 +45,51 @@ def _interpreter() -> str | None:
     return shutil.which("pvpython")
 
 
+def _one(frames: Any, arguments: argparse.Namespace) -> Any:
+    """Returns the frame that --frame names, as frames of one."""
+    found = chosen(frames, arguments.frame)
+    if len(found) != 1:
+        raise ValueError(f"--frame: expected one number, got {arguments.frame!r}")
+    return found
+
+
+def _find(arguments: argparse.Namespace, folder: Folder | None) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Returns the frame to draw, and what is told of it."""
+    particles = folder and folder.particles
+    if folder and not particles:
+        raise ValueError(f"{folder.path}: expected particles, got {', '.join(folder) or 'no files'}")
+    if particles and particles.kind == "particles":  # in VTK files
+        step = _one(particles.steps, arguments)[0]
+        number = particles.steps.index(step)
+        files = particles.files_at(step)
+        return {"files": files, "boxes": folder.box_of(files[0]), "frame": None}, {"frame": number, "step": step, "time": particles.times(folder.dt)[number]}
+    if particles:
+        arguments = argparse.Namespace(**{**vars(arguments), "files": particles.files, "dt": folder.dt})
+    with open_run(arguments) as opened:
+        frames = _one(opened, arguments)
+        if arguments.color and not frames[0]._is_array(arguments.color):
+            frames[0]._raise_no_column(arguments.color)
+        facts = {"frame": frames._numbers()[0], "step": frames[0].step, "time": frames[0].time}
+        return {"files": opened.files, "options": opened._options, "frame": facts["frame"]}, facts
+
+
 def run(arguments: argparse.Namespace) -> None:
     """Makes the picture."""
     parts = arguments.size.lower().split("x")
     if len(parts) != 2 or not all(part.isdigit() and int(part) > 0 for part in parts):
         raise ValueError(f"--size: expected WxH, as 1200x900, got {arguments.size!r}")
-    with open_run(arguments) as opened:
-        frames = chosen(opened, arguments.frame)
-        if len(frames) != 1:
-            raise ValueError(f"--frame: expected one number, got {arguments.frame!r}")
-        if arguments.color and not frames[0]._is_array(arguments.color):
-            frames[0]._raise_no_column(arguments.color)
-        files, options, number = opened.files, opened._options, frames._numbers()[0]
-        facts = {"frame": number, "step": frames[0].step, "time": frames[0].time}
-    picture = arguments.output or os.path.splitext(os.path.basename(files[0]))[0] + ".png"
+    folder = Folder(arguments.files[0], arguments.dt) if len(arguments.files) == 1 and os.path.isdir(arguments.files[0]) else None
+    given, facts = _find(arguments, folder)
+    walls = [path for each in folder.walls for path in each.files_at(facts["step"])] if folder else []
+    given |= {"color": arguments.color, "size": list(map(int, parts)), "walls": walls}
+    name = folder.path if folder else os.path.splitext(given["files"][0])[0]
+    picture = arguments.output or os.path.basename(name) + ".png"
     if not picture.endswith(".png"):
         raise ValueError(f"--output: expected a name that ends in .png, got {picture!r}")
     python = _interpreter()
     if python is None:
         raise ImportError("expected VTK or ParaView to draw with, got neither (Debian: python3-vtk9 or python3-paraview; pip: vtk)")
     picture = os.path.abspath(picture)
-    given = {"files": files, "options": options, "frame": number, "color": arguments.color, "size": list(map(int, parts))}
     program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")
     with whole_file(picture) as temporary:
         # a path, because with -m Python looks for modules in the current folder, too

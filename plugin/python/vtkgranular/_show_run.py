@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Particles, box, walls and contacts of a folder on one clock."""
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable
+
+from ._errors import upstream
+from ._folder import Folder, Series
+from ._library import Remark
+from ._plugin import expect_plugin, has_plugin
+from ._reader import reader
+from ._run import _warn
+from ._show import _GREY, expect_display, show
+
+
+def _active_folder() -> str:
+    """The folder of the files of the active source."""
+    from paraview import simple
+
+    active = simple.GetActiveSource()
+    for each in reversed(upstream(active) if active else []):
+        if each.SMProxy.GetProperty("FileNames"):
+            return os.path.dirname(os.path.abspath(each.FileNames[0]))
+    raise ValueError("expected a folder, or an active source that reads files, got neither")
+
+
+def _chosen(folder: Folder, given: bool | str | Iterable[str], default: list[Series]) -> list[Series]:
+    if isinstance(given, bool):
+        return default if given else []
+    return [folder[name] for name in ([given] if isinstance(given, str) else given)]
+
+
+def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = None, view: Any = None, color: str | None = None,
+             walls: bool | str | Iterable[str] = True, contacts: bool | str | Iterable[str] = False, box: bool = True,
+             legend: bool = True) -> dict[str, Any]:
+    """Shows the particles of a run with their box, walls and contacts, at the times of the particles, and returns the displays by the names
+    of the series, such as "dump_*.liggghts".
+
+    folder    the folder, with the files that vtkgranular.open(folder) lists; None: the folder of the files of the active source
+    dt        the time of one timestep, greater than 0, in the unit of the run; None: as a log in the folder or in the one above tells it
+    view      a render view; by default the active one, or a new one
+    color     name of the array to colour particles by; by default their velocities, or their types
+    walls     True: those that move with the particles, see vtkgranular.open; or names of series; False: none
+    contacts  True: the contacts or bonds with most timesteps, as lines through translucent particles; or names of series; False: none
+    box       True: the simulation box as lines
+    legend    True: the colour bar
+
+    The animation plays the times of the particles, and is at the last one. Where walls or contacts lack one of these, the file before is
+    shown, and a remark names the series; another one tells where dt is from. The portable plugin has no readers of VTK and STL files, and
+    a remark names the series that it leaves out.
+
+    Raises FileNotFoundError if there is no such folder, ValueError if it has nothing to show or no such series, and what
+    vtkgranular.reader and show raise.
+    """
+    from paraview import servermanager, simple
+
+    expect_plugin(has_plugin())
+    is_active = folder is None
+    found = Folder(os.fspath(folder) if folder is not None else _active_folder(), dt)
+    has_vtk = hasattr(servermanager.sources, "GranularMeshReader")
+    particles = found.particles if has_vtk else found.best("dump")
+    lines = found.best("local", "contacts") if has_vtk else found.best("local")
+    others = _chosen(found, walls, found.walls) + _chosen(found, contacts, [lines] if lines else [])
+    for each in [each for each in others if each.kind in ("walls", "contacts") and not has_vtk]:
+        others.remove(each)
+        _warn(Remark(f"{each.name} is left out: the portable plugin has no reader of VTK and STL files"))
+    if not particles and not others:
+        raise ValueError(f"{found.path}: expected particles, walls or contacts, got {', '.join(found) or 'no files'}")
+    view = view or simple.GetActiveViewOrCreate("RenderView")
+    expect_display(view)
+    if is_active:
+        simple.HideAll(view)
+    source = reader(particles.files, found.dt) if particles else None
+    readers = {each.name: reader(each.files, found.dt) for each in others}
+    if source:  # walls and contacts follow the clock of the particles
+        keeper = simple.GetTimeKeeper()
+        keeper.SuppressedTimeSources = [*keeper.SuppressedTimeSources, *readers.values()]
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.AnimationTime = scene.EndTime
+    made = {}
+    if source:
+        colors = [color] if color else [name for name in ("v", "type") if name in particles.columns]
+        made[particles.name] = show(source, view, color=colors[0] if colors else None, box=box, legend=legend)
+    for each in others:
+        made[each.name] = simple.Show(readers[each.name], view)
+        made[each.name].ColorArrayName = [None, ""]
+        is_wall = each.kind == "walls"
+        for name, value in {"AmbientColor": _GREY, "DiffuseColor": _GREY, "LineWidth": 3, "Opacity": 0.3 if is_wall else 1}.items():
+            setattr(made[each.name], name, value)
+        if source and not is_wall:
+            made[particles.name].Opacity = 0.3
+    view.ResetActiveCameraToPositiveY()
+    simple.ResetCamera(view)
+    told = [f"the time of a timestep, {found.dt:g}, is from {found.dt_path}"] if found.dt_path else []
+    for text in told + [text for text in found.remarks if text.split(" lacks ")[0] in made]:
+        _warn(Remark(text))
+    return made
