@@ -61,7 +61,8 @@ with contextlib.redirect_stdout(printed):
         Path("script.py").write_text(script)
         runpy.run_path("script.py", run_name="__main__")
 for block in commands:
-    shell = f'granular() {{ "{sys.executable}" "$GRANULAR_COMMAND" "$@"; }}\n{block}'
+    python = f'"{sys.executable}"' if os.path.exists(sys.executable) else ""  # pvpython names one that may not be there
+    shell = f'granular() {{ {python} "$GRANULAR_COMMAND" "$@"; }}\n{block}'
     done = subprocess.run(["bash", "-e", "-c", shell], capture_output=True, text=True)
     can_run = HAS_VTK or "granular show" not in block
     assert done.returncode == 0 if can_run else "expected VTK or ParaView" in done.stderr, (block, done.stdout, done.stderr)

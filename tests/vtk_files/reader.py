@@ -187,8 +187,10 @@ def check_made():
             shutil.copy(hopper(f"ranks_4000_{rank}.vtp"), f"r_{step}_{rank}.vtp")
     reader = vg.reader("r_*_%.vtp")
     assert list(reader.TimestepValues) == [100, 200]
-    reader.UpdatePipeline(200)
-    assert sorted(arrays_of(servermanager.Fetch(reader))[0][0]["id"]) == sorted(rows_of(4000)[:, 0])
+    for reader, time in ((reader, 200), (vg.reader("r_100_%.vtp"), 100)):  # of several timesteps, and of one
+        reader.UpdatePipeline(time)
+        assert sorted(arrays_of(servermanager.Fetch(reader))[0][0]["id"]) == sorted(rows_of(4000)[:, 0])
+    assert list(vg.reader("r_100_%.vtp").TimestepValues) == [100]
     grid = GranularVTKParticleReader(FileNames=[hopper("blocks_4000/blocks_4000_2.vtu")])
     grid.UpdatePipeline()
     assert servermanager.Fetch(grid).GetNumberOfVerts() == len(rows_of(4000))

@@ -28,13 +28,14 @@ struct Found
   Notices notices;
 };
 
-Found find(const std::vector<std::string>& files)
+Found find(const std::vector<std::string>& files, RepeatedSteps repeated = RepeatedSteps::Auto)
 {
   Found found;
   RunIndex index;
   Progress progress;
   IndexOptions options;
   options.format = &vtk_format();
+  options.repeated_steps = repeated;
   index.update(files, options, found.notices, progress);
   for (std::size_t frame = 0; frame < index.size(); ++frame)
   {
@@ -130,6 +131,10 @@ TEST_F(VtkSeries, StepsAndPieces)
   EXPECT_EQ(pieces.steps, (std::vector<std::int64_t>{ 100, 200 }));
   EXPECT_EQ(pieces.pieces, (std::vector<std::size_t>{ 2, 2 }));
   EXPECT_EQ(find(counted).steps, (std::vector<std::int64_t>{ 0, 1, 2 }));
+  const Found merged = find(counted, RepeatedSteps::Merge); // of one timestep
+  EXPECT_EQ(merged.steps, (std::vector<std::int64_t>{ 7 }));
+  EXPECT_EQ(merged.pieces, (std::vector<std::size_t>{ 3 }));
+  EXPECT_EQ(find(ranks, RepeatedSteps::Merge).steps, pieces.steps);
 }
 
 // A file that a simulation is still writing is left out, if its end can tell.

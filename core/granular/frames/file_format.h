@@ -49,6 +49,8 @@ struct FileFormat
   std::vector<std::int64_t> (*first_rows)(const FileIndex& file, const FrameEntry& entry) = nullptr;
 
   bool reads_vtk = false; ///< says itself which VTK files it cannot read
+  bool names_pieces =
+    false; ///< names alone tell pieces: RepeatedSteps::Merge says so of a number that counts from 0
   bool reads_all = false; ///< says itself of all files, which are not looked at before
   bool large_runs =
     false; ///< of so many or large files that several ranks look through them together

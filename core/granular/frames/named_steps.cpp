@@ -141,6 +141,17 @@ Siblings group_by_others(const Family& family, std::size_t at)
   return groups;
 }
 
+void mark_pieces(std::vector<FileIndex>& files)
+{
+  for (FileIndex& file : files)
+  {
+    for (FrameEntry& frame : file.frames)
+    {
+      frame.shape = 1;
+    }
+  }
+}
+
 void name_steps(std::vector<FileIndex>& files, Notices& notices)
 {
   std::size_t counted = 0;

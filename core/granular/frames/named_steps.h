@@ -54,5 +54,8 @@ Siblings group_by_others(const Family& family, std::size_t at);
 /// FrameEntry::whole, or no frame in any file but the first. A notice reports frames that are numbered in several
 /// files.
 void name_steps(std::vector<FileIndex>& files, Notices& notices);
+
+/// Tells name_steps that files are pieces, also where all are of one timestep.
+void mark_pieces(std::vector<FileIndex>& files);
 }
 #endif

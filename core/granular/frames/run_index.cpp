@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/frames/run_index.h"
 
+#include "granular/frames/named_steps.h"
 #include "granular/frames/run_index_parts.h"
 #include "granular/parallel/executor.h"
 
@@ -191,6 +192,10 @@ void RunIndex::update(const std::vector<std::string>& files, const IndexOptions&
   if (options.format->complete && (!options.format->lacks || options.format->lacks(*scanned_)))
   {
     updated = *scanned_;
+    if (options.format->names_pieces && options.repeated_steps == RepeatedSteps::Merge)
+    {
+      mark_pieces(updated);
+    }
     options.format->complete(updated, found);
     files_ = std::make_shared<const std::vector<FileIndex>>(std::move(updated));
   }

@@ -17,6 +17,7 @@ Open, show, fetch and save with paraview.simple:
 
     vtkgranular.reader("post/*.dump", dt=2e-5)   the reader that fits the files
     vtkgranular.show(reader, color="v", box=True)   particles as spheres, and the simulation box
+    vtkgranular.chart("ave_time.dat", "c_ke")    a table or log against time
     vtkgranular.show_run("post/")                particles, box, walls and contacts of a folder, on one clock
     vtkgranular.fetch(reader, time=0.02)         points and arrays as a dict of numpy arrays
     vtkgranular.history(reader, [1, 7], "v")     places and arrays of particles at all times
@@ -58,6 +59,7 @@ from ._run import Box, Frame, Run, kind_of, open  # noqa: A004 (vtkgranular.open
 from ._write import Writer, write
 
 if TYPE_CHECKING:
+    from ._chart import chart
     from ._errors import update
     from ._fetch import fetch
     from ._film import film
@@ -75,14 +77,14 @@ if TYPE_CHECKING:
     from .vtkGranular import *  # noqa: F403 (the compiled classes, which have stubs)
 
 # Functions of scripts of ParaView, and their modules, which are imported when the first of theirs is asked for.
-_LATER = {"fetch": "_fetch", "film": "_film", "history": "_history", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state",
+_LATER = {"chart": "_chart", "fetch": "_fetch", "film": "_film", "history": "_history", "label_format": "_versions", "load_plugin": "_plugin", "load_state": "_state",
           "pool_limit": "_pool", "preset": "_versions", "process_ids": "_versions", "pvbatch": "_ranks", "reader": "_reader",
           "save": "_save", "set_pool_limit": "_pool", "set_properties": "_versions", "show": "_show",
           "show_run": "_show_run", "update": "_errors",
           "write_series": "_series"}
 
 # Not the classes: help() would print all that they inherit, and nobody would find the functions.
-__all__ = ["__version__", "fetch", "files", "film", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
+__all__ = ["__version__", "chart", "fetch", "files", "film", "history", "kind_of", "label_format", "load_plugin", "load_state", "open", "pool_limit", "preset",
            "process_ids", "pvbatch", "read_log", "read_table", "reader", "save", "set_pool_limit", "set_properties", "show", "show_run", "update", "write",
            "write_series"]
 

@@ -163,7 +163,7 @@ class Folder(Mapping[str, Series]):
 
     def __init__(self, path: str, dt: float | None = None):
         expect_dt(dt)
-        self.path, self.dt, self.dt_path = os.path.abspath(path), dt, ""
+        self.path, self.dt, self.dt_path, self._given = os.path.abspath(path), dt, "", path
         sizes = {entry.name: entry.stat().st_size for entry in os.scandir(self.path) if entry.is_file() and entry.name[0] != "."}
         self._boxes = {re.sub(r"_?boundingBox", "", _stem(name)): name for name in sizes if "boundingBox" in name}
         wholes = {_stem(name) for name in sizes if _ending(name).startswith(".pv")}  # whose pieces have one number more
@@ -241,7 +241,7 @@ class Folder(Mapping[str, Series]):
 
     def __str__(self) -> str:
         origin = f" from {os.path.relpath(self.dt_path, self.path)}" if self.dt_path else ""
-        lines = [f"{self.path}: time of a timestep {f'{self.dt:g}{origin}' if self.dt else 'not known'}"]
+        lines = [f"{c.shown(self._given)}: time of a timestep {f'{self.dt:g}{origin}' if self.dt else 'not known'}"]
         for each in self._series:
             files = f", {len(each.files)} files" if len(each.files) not in (1, len(each.steps)) else ""
             times = f", times {span(each.times(self.dt), 'g')}" if self.dt and each.steps else ""

@@ -67,8 +67,27 @@ class LogTable:
 
         return pandas.DataFrame({name: self[name] for name in self})
 
+    def to_vtk(self) -> Any:
+        """Returns a vtkTable with the column "time" and all others. Where a timestep has several rows, each is a column of its own, "vz 1".
+        Needs VTK."""
+        from vtkmodules.util.numpy_support import numpy_to_vtk
+        from vtkmodules.vtkCommonDataModel import vtkTable
+
+        table = vtkTable()
+        for name, values in (("time", self.times), *((name, self[name]) for name in self)):
+            for own, column in zip(row_names(name, values), values.T if values.ndim > 1 else [values]):
+                made = numpy_to_vtk(column.copy(), deep=True)
+                made.SetName(own)
+                table.AddColumn(made)
+        return table
+
     def __repr__(self) -> str:
         return f"<{len(self)} rows from {os.path.basename(self.path)}:{self.line}: {' '.join(self)}>"
+
+
+def row_names(name: str, values: numpy.ndarray) -> list[str]:
+    """Returns the names of the columns of a vtkTable that a column becomes."""
+    return [name] if values.ndim == 1 else [f"{name} {row + 1}" for row in range(values.shape[1])]
 
 
 def last_of_each(steps: numpy.ndarray) -> numpy.ndarray:

@@ -16,6 +16,10 @@ from ._plugin import expect_plugin, has_plugin
 from ._run import open as open_run
 
 
+#: Readers of files whose names alone tell timesteps and ranks.
+_NAMED = ("GranularVTKParticleReader", "GranularMeshReader")
+
+
 def _names(paths: Iterable[str], remote: bool) -> list[str]:
     """The names of the files; a server's are taken as they are."""
     names: list[str] = []
@@ -77,13 +81,15 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     from paraview import servermanager, simple
 
     expect_plugin(has_plugin())
-    given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else paths
+    given: list[Any] = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     connection = servermanager.ActiveConnection
     names = _names([os.fsdecode(path) for path in given], connection is not None and connection.IsRemote())
     kind = _find_reader(names, properties.get("ColumnMap"))
     if kind == "GranularRestartReader" and len(names) > 1:
         bases = [name for name in names if "base" in os.path.basename(name)]
         names = bases or names  # the files of the other ranks are found beside them
+    if kind in _NAMED and any("%" in path and not os.path.exists(path) for path in map(os.fsdecode, given)):
+        properties.setdefault("RepeatedSteps", "Merge")
     if dt is not None:
         if not isinstance(dt, numbers.Real):
             raise TypeError(f"expected a number for dt, the time of one timestep, got {dt!r}: other settings have names, as in "

@@ -106,6 +106,7 @@ const FileFormat& vtk_format() noexcept
   static constexpr FileFormat format = { .name = "a VTK, STL or PLY file",
     .index = &index_vtk,
     .complete = &complete_vtk,
+    .names_pieces = true,
     .reads_all = true,
     .large_runs = true };
   return format;

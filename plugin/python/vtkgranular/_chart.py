@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Charts of tables and logs."""
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable
+
+from ._folder import Series
+from ._log import read_log, row_names
+from ._table import read_table
+
+
+def chart(path: str | os.PathLike[str], names: str | Iterable[str], dt: float | None = None, view: Any = None) -> Any:
+    """Draws columns of a table or log against time, and returns their display.
+
+    path   a file that vtkgranular.read_table or read_log reads; the server of ParaView must have it under the same name
+    names  a column, or a list of columns; each row of a timestep, such as a layer, has a line of its own
+    dt     the time of one timestep, greater than 0, in the unit of the run; None: as these functions have it
+    view   a line chart view; by default a new one
+
+    The table is a source of the pipeline, which reads the file again when its Script runs again. Raises what read_table and read_log raise.
+    """
+    from paraview import simple
+
+    path = os.path.abspath(os.fsdecode(path))
+    read = read_log if Series("", [(path, os.path.getsize(path))], [], False).kind == "log" else read_table
+    table = read(path, dt)
+    lines = [line for name in ([names] if isinstance(names, str) else names) for line in row_names(name, table[name])]
+    script = f"import vtkgranular\nself.GetTableOutput().ShallowCopy(vtkgranular.{read.__name__}({path!r}, dt={dt!r}).to_vtk())"
+    source = simple.ProgrammableSource(registrationName=os.path.basename(path), OutputDataSetType="vtkTable", Script=script,
+                                       PythonPath=repr(os.path.dirname(os.path.dirname(__file__))))
+    display = simple.Show(source, view or simple.CreateView("XYChartView"))
+    display.UseIndexForXAxis = 0
+    display.XArrayName = "time"
+    display.SeriesVisibility = lines
+    return display
