@@ -55,6 +55,8 @@ warnings.filterwarnings("ignore", module=".*(matplotlib|pyparsing)")  # others' 
 if not os.path.exists("samples"):
     os.symlink(root / "samples", "samples")
 
+if "GRANULAR_COMMAND" in os.environ:
+    os.environ["PATH"] = os.path.dirname(os.environ["GRANULAR_COMMAND"]) + ":" + os.environ["PATH"]
 printed = io.StringIO()
 with contextlib.redirect_stdout(printed):
     if script:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """granular convert: between the forms of dumps, to numpy, tables and VTK, whole or in part; the old file until all is there."""
 import csv
+import json
 import os
 import resource
 import signal
@@ -27,6 +28,9 @@ def clean():
         os.remove(name)
 
 
+clean()
+assert json.loads(granular("convert", "--json", SOURCE, "a.csv", "--frames", "1:")[0]) == {"given": [SOURCE], "out": "a.csv", "frames": 4}
+assert list(json.loads(granular("convert", "--json", SOURCE, "none/a.csv", status=1)[0])) == ["error"]
 clean()
 # from text to every form and back: the bytes of the first file, from any number of threads
 for form in ("a.dump", "a.dump.gz", "a.dump.zst"):

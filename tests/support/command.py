@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the command granular as a user does."""
+import json
 import os
 import runpy
 import subprocess
@@ -10,6 +11,16 @@ import vtkgranular.command  # loaded once for the copies
 
 GOOD = os.path.join(os.environ["GRANULAR_DATA"], "good")
 SAMPLES = os.path.join(os.environ["GRANULAR_ROOT"], "samples", "data")
+
+
+try:
+    import jsonschema
+except ImportError:
+    print("documents of --json are not checked: python3-jsonschema is not installed")
+    jsonschema = None
+with open(os.path.join(os.environ["GRANULAR_ROOT"], "docs", "reference", "command.schema.json"), encoding="ascii") as _stream:
+    SCHEMA = json.load(_stream)
+assert list(SCHEMA["$defs"]) == [*vtkgranular.command.COMMANDS, "error"]
 
 
 def _in_a_copy(words):
@@ -45,6 +56,9 @@ def granular(*arguments, status=0, **options):
     done = subprocess.run([sys.executable, *words], capture_output=True, text=True, timeout=100, **options) if options else _in_a_copy(words)
     assert done.returncode == status, (arguments, done.returncode, done.stdout, done.stderr)
     assert "Traceback" not in done.stderr, done.stderr
+    if "--json" in arguments and jsonschema:
+        document = json.loads(done.stdout)
+        jsonschema.validate(document, {"$ref": "#/$defs/" + ("error" if "error" in document else arguments[0]), **SCHEMA})
     return done.stdout, done.stderr
 
 

@@ -8,7 +8,7 @@ import re
 
 from .._library import shown
 from .._options import FRAME
-from . import add_frames, add_option, add_reading, chosen, open_run
+from . import add_frames, add_option, add_reading, chosen, json_text, open_run
 from .progress import Bar
 from .info import tell_faults
 
@@ -26,6 +26,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     """Adds the options of convert."""
     parser.add_argument("files", metavar="IN", nargs="+", help="name or pattern of the files of one run")
     parser.add_argument("out", metavar="OUT", help="name of the new file")
+    parser.add_argument("--json", action="store_true", help="prints one JSON document, also of an error")
     add_frames(parser)
     add_reading(parser)
     part = parser.add_argument_group("the part to write")
@@ -78,3 +79,5 @@ def run(arguments: argparse.Namespace) -> None:
         write(arguments.out, RunSlice(opened, numbers._numbers(), asked), style=arguments.style or "", dialect=arguments.dialect,
               columns=" ".join(words), numbers=arguments.numbers, label=arguments.label, scaled=not arguments.unscaled, image=arguments.image,
               sort=not is_form and bool(arguments.sort), threads=arguments.threads or 0, progress=bar.show, durable=durable)
+        if arguments.json:
+            print(json_text({"given": arguments.files, "out": arguments.out, "frames": len(numbers)}))
