@@ -18,7 +18,7 @@ try:
 except ImportError:
     print("documents of --json are not checked: python3-jsonschema is not installed")
     jsonschema = None
-with open(os.path.join(os.environ["GRANULAR_ROOT"], "docs", "reference", "command.schema.json"), encoding="ascii") as _stream:
+with open(os.path.join(os.environ["GRANULAR_ROOT"], "docs", "guide", "command.schema.json"), encoding="ascii") as _stream:
     SCHEMA = json.load(_stream)
 assert list(SCHEMA["$defs"]) == [*vtkgranular.command.COMMANDS, "error"]
 
