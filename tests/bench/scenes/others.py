@@ -6,6 +6,7 @@ import time
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOInfovis import vtkDelimitedTextReader
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 
 import vtkgranular as vg
 from scene import LATTICE, Packing, Rounds, array_of, main, open_dump, points_of, read_again, scientific, table
@@ -91,6 +92,33 @@ def conversions(study):
          if case.startswith("convert") else None] for case in times.contenders])
 
 
+def legacy_files(study):
+    """What `dump custom/vtk` of LIGGGHTS holds, by the reader of VTK and by ours."""
+    packing = Packing(layers=study.pick(2, 1), lattice=study.pick(63, 8))
+    data, times = read_again(open_dump(str(packing.write(study.folder / "legacy.dump", "%g")))), Rounds(packing.rows)
+    for form, binary in (("text", 0), ("binary", 1)):
+        path = str(study.folder / f"{form}_1.vtk")
+        writer = vtkPolyDataWriter()
+        writer.SetFileName(path)
+        writer.SetFileType(1 + binary)
+        writer.SetInputData(data)
+        writer.Write()
+        values = {}
+        for name, reader in (("vtkPolyDataReader", vtkPolyDataReader()), ("GranularVTKParticleReader", vg.vtkGranularVTKParticleReader())):
+            if name.startswith("Granular"):
+                reader.AddFileName(path)
+                reader.SetThreads(1)
+            else:
+                reader.SetFileName(path)
+            values[name] = lambda reader=reader: points_of(read_again(reader))
+            times.add(f"{form}, {name}", values[name])
+        study.check(numpy.array_equal(*(read() for read in values.values())), form)
+    times.run(study.pick(5, 1))
+    return table(["case", "time ns/particle", "VTK's reader against ours"], [
+        [f"`{case}`", f"{times.ns(case):.0f}", f"{times.ratio(case, case.replace('vtkPolyData', 'GranularVTKParticle')):.1f}"]
+        for case in times.contenders])
+
+
 def study_of(study):
     packing = Packing(PLACE, layers=1, lattice=study.pick(63, 8))
     truth = numpy.column_stack((packing.points, packing.v, packing.f))
@@ -116,6 +144,8 @@ def study_of(study):
                 "MDAnalysis keep positions only; MDAnalysis moves the box to the origin, which is undone here. Opening the file is part of the "
                 "time." + (f" Not installed: {', '.join(absent)}." if absent else ""),
                 table(["program; text", "read ns/particle", "against ours", "wrong values", "largest error [ulp]"], rows))
+    study.block("legacy", "31,752 particles in legacy VTK files with the arrays of a dump of 12 columns; one thread, processor time, open "
+                "readers that read again.", legacy_files(study))
     study.block("conversions", "Ten frames of 95,256 particles with 12 columns of %g; time on the wall, all cores, files in the page cache. A "
                 "conversion reads the next frame while it writes one.", conversions(study))
 
