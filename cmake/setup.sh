@@ -15,6 +15,7 @@ granular_plugin_packages=(
 granular_vtk_packages=(libopenmpi-dev libvtk9-dev openmpi-bin python3-dev python3-vtk9 xauth xvfb)
 granular_test_packages=(binutils gfortran libbenchmark-dev libgtest-dev locales python3-jsonschema python3-matplotlib python3-numpy python3-scipy
   python3-setuptools python3-venv python3-wheel voro++)
+granular_site_packages=(chromium doxygen mkdocs-material) # for packaging/site and its test, which is skipped without
 granular_fuzz_packages=(clang libclang-rt-dev llvm)
 
 granular_say()
