@@ -911,8 +911,10 @@ class Run(_Frames):
         """Returns the ParaView reader of the same files: see vtkgranular.reader."""
         from . import reader
 
+        set_ones = {option: value for option in FILES if option.type in ("text", "names", "choice")
+                    and (value := self._options.get(option.name, option.default)) != option.default}
         own = {option.property: _choice(option.name, value, option.choices) if option.choices else words_of(value)
-               for option in FILES if option.type in ("text", "names", "choice") and (value := self._options.get(option.name))}
+               for option, value in set_ones.items()}
         return reader(self._paths, dt=self._options.get("dt"), **{**own, **properties})
 
     def close(self) -> None:

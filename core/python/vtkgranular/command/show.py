@@ -26,6 +26,7 @@ def options(parser: argparse.ArgumentParser) -> None:
                         "file with .png, in this folder)")
     parser.add_argument("--frame", default="-1", metavar="N", help="number of the frame, from 0, or from the end (default: -1, the last one)")
     parser.add_argument("--color", metavar="NAME", help="column to colour by")
+    parser.add_argument("--window", action="store_true", help="starts ParaView on the frame, with the plugin and the box, instead of a picture")
     parser.add_argument("--size", default="1200x900", metavar="WxH", help="pixels (default: 1200x900)")
 
 
@@ -73,6 +74,21 @@ def _find(arguments: argparse.Namespace, folder: Folder | None) -> tuple[dict[st
         return {"files": opened.files, "options": opened._options, "frame": facts["frame"]}, facts
 
 
+def _start_window(given: dict[str, Any]) -> None:
+    """Starts ParaView on a frame, and waits for its end."""
+    paraview = shutil.which("paraview")
+    if not paraview:
+        raise ImportError("expected the program paraview in PATH, got none (Debian: paraview)")
+    if not os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
+        raise ImportError("expected a display for the window, got none: without --window, granular show makes a picture")
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    path = os.pathsep.join([os.path.dirname(package), *filter(None, [os.environ.get("PYTHONPATH")])])
+    done = subprocess.run([paraview, "--script=" + os.path.join(package, "_window.py")],
+                          env={**os.environ, "GRANULAR_WINDOW": json.dumps(given), "PYTHONPATH": path})
+    if done.returncode:
+        raise RuntimeError(f"{paraview}: expected the exit status 0, got {done.returncode}")
+
+
 def run(arguments: argparse.Namespace) -> None:
     """Makes the picture."""
     parts = arguments.size.lower().split("x")
@@ -81,6 +97,9 @@ def run(arguments: argparse.Namespace) -> None:
     folder = Folder(arguments.files[0], arguments.dt) if len(arguments.files) == 1 and os.path.isdir(arguments.files[0]) else None
     given, facts = _find(arguments, folder)
     walls = [path for each in folder.walls for path in each.files_at(facts["step"])] if folder else []
+    if arguments.window:
+        _start_window({"folder": folder.path, "dt": arguments.dt, "color": arguments.color} if folder else {**given, "color": arguments.color})
+        return
     given |= {"color": arguments.color, "size": list(map(int, parts)), "walls": walls}
     name = folder.path if folder else os.path.splitext(given["files"][0])[0]
     picture = arguments.output or os.path.basename(name) + ".png"
