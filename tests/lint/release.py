@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The version is the same in CMakeLists.txt, granular.h, CITATION.cff and the first heading of CHANGELOG, which also has its day.
+"""The version is the same in CMakeLists.txt, granular.h, CITATION.cff, the recipes and the first heading of CHANGELOG, which also
+has its day.
 `release.py root tag` prints the release notes, if the tag is "v" and the version."""
 import re
 import sys
@@ -17,8 +18,12 @@ def check(root):
     header = ".".join(re.findall(r"#define GRANULAR_VERSION_\w+ (\d+)", tree.read(root, "core/c/granular.h")))
     citation = dict(re.findall(r"^(version|date-released): (\S+)$", tree.read(root, "CITATION.cff"), re.MULTILINE))
     heading, day, _ = notes(root)
+    conda = re.search(r'set version = "(\S+)"', tree.read(root, "packaging/conda/meta.yaml")).group(1)
+    spack = re.search(r'    version\("(\S+)"\)', tree.read(root, "packaging/spack/package.py")).group(1)
     for path, got, expected in (("core/c/granular.h", header, version), ("CITATION.cff", citation["version"], version),
-                                ("CHANGELOG.md", heading, version), ("CITATION.cff", citation["date-released"], day)):
+                                ("CHANGELOG.md", heading, version),
+                                ("packaging/conda/meta.yaml", conda, version),
+                                ("packaging/spack/package.py", spack, version), ("CITATION.cff", citation["date-released"], day)):
         if got != expected:
             yield path, 1, f"expected {expected}, got {got}"
 
