@@ -4,14 +4,23 @@
 /* False: libstdc++ counts references atomically even where there is one thread. */
 char __libc_single_threaded = 0;
 
-/* The first pow of glibc has the values of the one of 2.29, and sets errno as well. The linker's --wrap=pow leads here. */
+/* The first exp and pow of glibc have the values of those of 2.29, and set errno as well. The linker's --wrap leads here. */
 #ifdef __x86_64__
-__asm__(".symver first_pow, pow@GLIBC_2.2.5");
+#define FIRST "GLIBC_2.2.5"
 #else
-__asm__(".symver first_pow, pow@GLIBC_2.17"); /* aarch64 */
+#define FIRST "GLIBC_2.17" /* aarch64 */
 #endif
+__asm__(".symver first_exp, exp@" FIRST);
+__asm__(".symver first_pow, pow@" FIRST);
+double first_exp(double x);
 double first_pow(double x, double y);
+double __wrap_exp(double x);
 double __wrap_pow(double x, double y);
+
+double __wrap_exp(double x)
+{
+  return first_exp(x);
+}
 
 double __wrap_pow(double x, double y)
 {
