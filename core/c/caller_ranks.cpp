@@ -18,7 +18,7 @@ namespace
 /// Bytes of each rank in a part: whole integers, and little memory for all ranks.
 std::size_t part_bytes(int ranks)
 {
-  constexpr std::size_t all = std::size_t{ 1 } << 24;
+  constexpr std::size_t all = std::size_t{ 1 } << 20;
   constexpr std::size_t least = std::size_t{ 1 } << 12;
   return std::max(
     least, all / static_cast<std::size_t>(ranks) / sizeof(std::int64_t) * sizeof(std::int64_t));

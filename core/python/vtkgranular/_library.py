@@ -8,7 +8,8 @@ import os
 import re
 import signal
 import threading
-from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p, pointer
+import weakref
+from ctypes import CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int64, c_size_t, c_ssize_t, c_void_p, pointer
 from typing import Any, Callable
 
 from ._folders import LIBRARY, LIBRARY_FOLDER, VERSION
@@ -73,6 +74,13 @@ def _fields_of(options: tuple[Option, ...]) -> list[tuple[str, Any]]:
     return [(option.c, types.get(option.type, c_int)) for option in options]
 
 
+def _memory(address: int, size: int) -> Any:
+    """Returns bytes of the library as a memoryview. An array of ctypes would be a type of its own for each size."""
+    view = ctypes.pythonapi.PyMemoryView_FromMemory
+    view.argtypes, view.restype = (c_void_p, c_ssize_t, c_int), ctypes.py_object
+    return view(address, size, 0x200)  # to be written, too
+
+
 class Ranks(Structure):
     """The ranks of a communicator of mpi4py, or of anything with Get_rank, Get_size and Allgather."""
 
@@ -80,16 +88,17 @@ class Ranks(Structure):
 
     def __init__(self, communicator: Any):
         self.raised: BaseException | None = None
+        me = weakref.ref(self)  # which keeps this function: a cycle stays where no garbage is collected
 
         def all_gather(mine: int, gathered: int, count: int, _: Any) -> int:
+            own = me()
             try:
-                if self.raised:
+                if own.raised:
                     return 1  # the ranks are at odds
-                communicator.Allgather(*(memoryview((ctypes.c_ubyte * size).from_address(memory)).cast("B")
-                                         for memory, size in ((mine, count), (gathered, count * self.size))))
+                communicator.Allgather(_memory(mine, count), _memory(gathered, count * own.size))
             except BaseException as error:  # noqa: BLE001 (of the communicator: raised behind the library)
-                self.raised = error
-            return 1 if self.raised else 0
+                own.raised = error
+            return 1 if own.raised else 0
 
         super().__init__(communicator.Get_rank(), communicator.Get_size(), ALL_GATHER(all_gather))
 
@@ -313,14 +322,16 @@ class Calls:
         self.notices: list[Remark] = []
         self._ranks = ranks
         self._old_handler: Any = None
+        me = weakref.ref(self)  # which keeps these functions: a cycle stays where no garbage is collected
 
         def report(fraction: float, _: Any) -> int:
-            if progress is None or self.raised:
-                return 1 if self.raised else 0
+            own = me()
+            if progress is None or own.raised:
+                return 1 if own.raised else 0
             try:
                 return 1 if progress(fraction) is False else 0
             except BaseException as error:  # noqa: BLE001 (of the caller, who gets it)
-                self.raised = error
+                own.raised = error
                 return 1
 
         def tell(notice: Any, _: Any) -> None:
@@ -328,7 +339,7 @@ class Calls:
             remark = Remark(message_of(told.message))
             remark.path, remark.line, remark.byte = text(told.path), told.line, told.byte
             remark.column, remark.text, remark.topic = text(told.column), message_of(told.text), text(told.topic)
-            self.notices.append(remark)
+            me().notices.append(remark)
 
         # the main thread takes Ctrl-C in this function; others do without, because Python's end would end them in it
         is_called = progress is not None or threading.current_thread() is threading.main_thread()
@@ -349,9 +360,12 @@ class Calls:
         if self._old_handler is not None:
             signal.signal(signal.SIGINT, self._old_handler)
             self._old_handler = None
-        self.raised = self.raised or (self._ranks and self._ranks.raised)
-        if self.raised:
-            raise self.raised
+        raised, self.raised = self.raised or (self._ranks and self._ranks.raised), None
+        if raised:
+            try:
+                raise raised
+            finally:
+                del raised  # whose traceback has this frame
         told, self.notices = self.notices, []
         for notice in told:
             self._warn(notice)

@@ -2,9 +2,12 @@
 """The arrays that a user has chosen from those of the files, by the rules of the compiled readers."""
 from __future__ import annotations
 
-from typing import Callable, Iterable
+import weakref
+from typing import Any, Iterable
 
 from vtkmodules.vtkCommonCore import vtkDataArraySelection
+
+from ._told import weakly
 
 
 class ArrayChoice:
@@ -13,13 +16,14 @@ class ArrayChoice:
     follow  new arrays are off if the user has deselected others: a history that gets other names is off where parts of it were
     """
 
-    def __init__(self, modified: Callable[[], None], follow: bool):
+    def __init__(self, reader: Any, follow: bool):
         self.selection = vtkDataArraySelection()
         self.follow = follow
         self._usual: dict[str, bool] = {}  # what is offered
         self._gone: dict[str, bool] = {}  # what was chosen of those that are no more
         self._offering = False
-        self.selection.AddObserver("ModifiedEvent", lambda *_: None if self._offering else modified())
+        own, of_reader = weakref.ref(self), weakly(reader)
+        self.selection.AddObserver("ModifiedEvent", lambda *_: None if own()._offering else of_reader().Modified())
 
     def _states(self) -> dict[str, bool]:
         chosen = self.selection

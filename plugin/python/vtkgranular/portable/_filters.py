@@ -2,7 +2,6 @@
 """The base of sources and filters: the work of the C library on data of the pipeline."""
 from __future__ import annotations
 
-import weakref
 from typing import Any, Callable, Sequence
 
 from vtkmodules.vtkCommonCore import vtkDataArraySelection
@@ -16,6 +15,7 @@ from ._algorithm import Algorithm, asked_output, piece_of
 from ._arrays import Table
 from ._contents import Content
 from ._ranks import is_own_piece, ranks_of_paraview
+from ._told import weakly
 
 
 class Filter(Algorithm):
@@ -34,7 +34,7 @@ class Filter(Algorithm):
         on = c.c_int()
         while name := c.library().granular_made_array(type(self).__name__.encode(), self._selection.GetNumberOfArrays(), c.byref(on)):
             self._selection.AddArray(c.text(name), bool(on.value))
-        algorithm = weakref.ref(self)  # an observer that has it would keep it for ever
+        algorithm = weakly(self)
         self._selection.AddObserver("ModifiedEvent", lambda *_: algorithm().Modified())
 
     def GetArraySelection(self) -> vtkDataArraySelection:

@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 
 from .. import _library as c
 from ._ranks import everyone, share
+from ._told import weakly
 
 
 class InputFrames:
@@ -108,20 +109,20 @@ class KeptFrames:
     """
 
     def __init__(self, consumer: Any):
-        self._consumer, self._changed = consumer, None
+        self._consumer, self._changed = weakly(consumer), None
         self._kept: dict[float, list[Any]] = {}  # by their times
         self._asked: dict[int, list[Any]] = {}  # in this update
 
     def begin(self, piece: tuple[int, int]) -> None:
         """Begins an update with the frame that is shown. Raises Error if the ranks have different times."""
-        self._piece = piece
-        self._ports = [port for port in range(self._consumer.GetNumberOfInputPorts()) if self._consumer.GetNumberOfInputConnections(port)]
-        changed = piece, [self._consumer.GetInputExecutive(port, 0).GetPipelineMTime() for port in self._ports]
+        self._piece, consumer = piece, self._consumer()
+        self._ports = [port for port in range(consumer.GetNumberOfInputPorts()) if consumer.GetNumberOfInputConnections(port)]
+        changed = piece, [consumer.GetInputExecutive(port, 0).GetPipelineMTime() for port in self._ports]
         if any(everyone(changed != self._changed)):
             self._kept = {}
         self._changed = changed
-        shown = [copy_of(self._consumer.GetInputDataObject(port, 0)) for port in self._ports]
-        frames = InputFrames(self._consumer, 0, piece)
+        shown = [copy_of(consumer.GetInputDataObject(port, 0)) for port in self._ports]
+        frames = InputFrames(consumer, 0, piece)
         self.times, self.number = frames.shared_times(), frames.shown_number()
         self._asked, self._last = {self.number: shown}, self.number
 
@@ -142,7 +143,7 @@ class KeptFrames:
         self._asked = {}
 
     def _read(self, time: float) -> list[Any]:
-        inputs = [InputFrames(self._consumer, port, self._piece) for port in self._ports]
+        inputs = [InputFrames(self._consumer(), port, self._piece) for port in self._ports]
         made = []
         for frames in inputs:
             frames.update(time)

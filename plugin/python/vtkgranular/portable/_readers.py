@@ -41,7 +41,7 @@ class Reader(Algorithm):
         self._run: Run | None = None
         self._opened: Any = None  # with these options
         self._stale = False
-        self._choices = {name: ArrayChoice(self.Modified, self.kind == "restart") for name in ("Points", "Cells")}
+        self._choices = {name: ArrayChoice(self, self.kind == "restart") for name in ("Points", "Cells")}
 
     # ---- properties ----
     def AddFileName(self, name: str) -> None:

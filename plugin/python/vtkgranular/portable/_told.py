@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import Any, Callable
 
-from vtkmodules.vtkCommonCore import vtkOutputWindow
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkWeakReference
 
 from .._library import _SETTINGS, Remark
 
@@ -30,23 +30,32 @@ def message_of(error: Exception | str) -> str:
     return text[:begin] + re.sub("|".join(rf"\b{own}(?!\w)" for own in _NAMES), lambda match: _NAMES[match.group()], text[begin:])
 
 
+def weakly(algorithm: Any) -> Callable[[], Any]:
+    """Returns a function that returns an algorithm. What an algorithm keeps has it by such a function: in a cycle it stays for ever, with all
+    its data, as no garbage collector looks into observers of VTK, or is at work on several ranks. One of Python's own references would end
+    with its object, of which VTK makes another one."""
+    reference = vtkWeakReference()
+    reference.Set(algorithm)
+    return reference.Get
+
+
 class Told:
     """Tells the messages of an algorithm to whoever watches it, or to VTK's output window, as VTK's macros do."""
 
     def __init__(self, algorithm: Any):
-        self._algorithm = algorithm
+        self._algorithm = weakly(algorithm)
         self._known: set[str] = set()
         self._kept: list[str] = []
-        self._watched: Any = None
+        self._watched: Callable[[], Any] = lambda: None  # the executive
         self._topics: set[str] = set()  # of the last request of a filter
         self._topics_time = 0
         self._failed: Any = None  # the last error, and the time of the algorithm then
 
     def watch(self) -> None:
         """Watches the executive of the algorithm, of which ParaView gives it another one than it has at first."""
-        executive = self._algorithm.GetExecutive()
-        if executive is not self._watched:
-            self._watched = executive
+        executive = self._algorithm().GetExecutive()
+        if executive is not self._watched():
+            self._watched = weakly(executive)
             executive.AddObserver("ErrorEvent", _pass_on)
 
     def forget(self) -> None:
@@ -70,7 +79,7 @@ class Told:
 
     def tell_topics(self, remarks: list[Remark]) -> None:
         """Tells each remark as a warning, of each topic once, until it is gone or something upstream is changed, which may be why."""
-        time = self._algorithm.GetExecutive().GetPipelineMTime()
+        time = self._algorithm().GetExecutive().GetPipelineMTime()
         before = self._topics if time == self._topics_time else set()
         self._topics, self._topics_time = set(), time
         for remark in remarks:
@@ -81,15 +90,16 @@ class Told:
 
     def error(self, text: str) -> None:
         """Tells an error once, as pipelines repeat requests."""
-        failed = text, self._algorithm.GetMTime()
+        failed = text, self._algorithm().GetMTime()
         if failed != self._failed:
             self._failed = failed
             self._say("ErrorEvent", text)
 
     def _say(self, event: str, text: str) -> None:
-        if self._algorithm.HasObserver(event):
-            self._algorithm.InvokeEvent(event, text)
+        algorithm = self._algorithm()
+        if algorithm.HasObserver(event):
+            algorithm.InvokeEvent(event, text)
             return
         window = vtkOutputWindow.GetInstance()
-        name = type(self._algorithm).__name__
+        name = type(algorithm).__name__
         (window.DisplayErrorText if event == "ErrorEvent" else window.DisplayWarningText)(f"{name}: {text}\n")
