@@ -2,6 +2,7 @@
 """The folder of a run is shown by one call: particles, box, walls and contacts at the times of the particles, and the plate is under the
 particles in every frame. The portable plugin says that it leaves out the walls. Charts draw the tables beside."""
 import os
+import shutil
 import warnings
 
 import numpy as np
@@ -87,7 +88,7 @@ assert [data_of(display)[2] for display in displays.values()] == [3000, 2000]
 
 # the folder of the active source; walls by name, also where they lack timesteps
 ResetSession()
-dump = vg.reader(os.path.join(HOPPER, "dump_*.liggghts"), dt=DT)
+dump = vg.reader(os.path.join(HOPPER, "dump_*.liggghts"))
 SetActiveSource(dump)
 view = CreateRenderView(ViewSize=[200, 200])
 told = [left_out] * (not HAS_VTK) + ["walls_*.vtk lacks 2 of 3 timesteps of dump_*.liggghts, the first 2000"] * HAS_VTK
@@ -103,6 +104,15 @@ if HAS_VTK:
     displays = shown([], "vtk")
     assert list(displays) == ["particles_*.vtk"] and list(GetTimeKeeper().TimestepValues) == [0, 2000, 4000]
 
+# bonds that name their particles alone
+shutil.rmtree("bonds", ignore_errors=True)
+os.makedirs("bonds")
+os.symlink(os.path.join(HOPPER, "..", "local", "chain.dump"), "bonds/chain.dump")
+with open("bonds/bonds.local", "w", encoding="ascii") as stream:
+    stream.write("ITEM: TIMESTEP\n1000\nITEM: NUMBER OF ENTRIES\n2\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ENTRIES id1 id2\n1 2\n2 3\n")
+ResetSession()
+bonds = shown([], "bonds", contacts=True)["bonds.local"].Input
+assert bonds.GetXMLName() == "GranularLocalJoin" and bonds.GetDataInformation().GetNumberOfCells() == 2, bonds
 for name, column, lines, first in (("tables/chunk2.profile", "vz", ["vz 1", "vz 2", "vz 3", "vz 4"], (0.004, -0.251181)),
                                    ("log/liggghts.txt", "KinEng", ["KinEng"], (0, 0))):
     display = vg.chart(os.path.join(os.environ["GRANULAR_DATA"], "good", name), column, dt=DT)

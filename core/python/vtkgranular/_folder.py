@@ -223,9 +223,9 @@ class Folder(Mapping[str, Series]):
         return [each for each in self._series if each.kind in kinds]
 
     def best(self, *kinds: str) -> Series | None:
-        """Returns the series of some kinds with radii, most timesteps and most columns, dumps before VTK files; None if there is none."""
+        """Returns the series of some kinds with radii or ids of ends, most timesteps and most columns, dumps before VTK files."""
         return max(self.of(*kinds), default=None, key=lambda each: (
-            "radius" in each.columns, len(each.steps), each.kind == "dump", len(each.columns)))
+            not {"radius", "id1"}.isdisjoint(each.columns), len(each.steps), each.kind == "dump", len(each.columns)))
 
     def __getitem__(self, name: str) -> Series:
         for each in self._series:

@@ -14,14 +14,14 @@ from ._run import _warn
 from ._show import _GREY, expect_display, show
 
 
-def _active_folder() -> str:
-    """The folder of the files of the active source."""
+def _active_reader() -> Any:
+    """The reader that the active source is, or stands on."""
     from paraview import simple
 
     active = simple.GetActiveSource()
     for each in reversed(upstream(active) if active else []):
         if each.SMProxy.GetProperty("FileNames"):
-            return os.path.dirname(os.path.abspath(each.FileNames[0]))
+            return each
     raise ValueError("expected a folder, or an active source that reads files, got neither")
 
 
@@ -37,12 +37,14 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
     """Shows the particles of a run with their box, walls and contacts, at the times of the particles, and returns the displays by the names
     of the series, such as "dump_*.liggghts".
 
-    folder    the folder, with the files that vtkgranular.open(folder) lists; None: the folder of the files of the active source
+    folder    the folder, with the files that vtkgranular.open(folder) lists; None: that of the files of the active source, which is hidden,
+              and its times are left out
     dt        the time of one timestep, greater than 0, in the unit of the run; None: as a log in the folder or in the one above tells it
     view      a render view; by default the active one, or a new one
     color     name of the array to colour particles by; by default their velocities, or their types
     walls     True: those that move with the particles, see vtkgranular.open; or names of series; False: none
-    contacts  True: the contacts or bonds with most timesteps, as lines through translucent particles; or names of series; False: none
+    contacts  True: the contacts or bonds with most timesteps, as lines through translucent particles, joined with the particles where their
+              files have no places; or names of series; False: none
     box       True: the simulation box as lines
     legend    True: the colour bar
 
@@ -56,8 +58,8 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
     from paraview import servermanager, simple
 
     expect_plugin(has_plugin())
-    is_active = folder is None
-    found = Folder(os.fspath(folder) if folder is not None else _active_folder(), dt)
+    active = [_active_reader()] if folder is None else []
+    found = Folder(os.path.dirname(active[0].FileNames[0]) if active else os.fspath(folder), dt)
     has_vtk = hasattr(servermanager.sources, "GranularMeshReader")
     particles = found.particles if has_vtk else found.best("dump")
     lines = found.best("local", "contacts") if has_vtk else found.best("local")
@@ -69,13 +71,12 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
         raise ValueError(f"{found.path}: expected particles, walls or contacts, got {', '.join(found) or 'no files'}")
     view = view or simple.GetActiveViewOrCreate("RenderView")
     expect_display(view)
-    if is_active:
+    if active:
         simple.HideAll(view)
     source = reader(particles.files, found.dt) if particles else None
     readers = {each.name: reader(each.files, found.dt) for each in others}
-    if source:  # walls and contacts follow the clock of the particles
-        keeper = simple.GetTimeKeeper()
-        keeper.SuppressedTimeSources = [*keeper.SuppressedTimeSources, *readers.values()]
+    keeper = simple.GetTimeKeeper()  # walls and contacts follow the clock of the particles
+    keeper.SuppressedTimeSources = [*keeper.SuppressedTimeSources, *active, *(readers.values() if source else ())]
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.AnimationTime = scene.EndTime
@@ -84,10 +85,16 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
         colors = [color] if color else [name for name in ("v", "type") if name in particles.columns]
         made[particles.name] = show(source, view, color=colors[0] if colors else None, box=box, legend=legend)
     for each in others:
-        made[each.name] = simple.Show(readers[each.name], view)
+        shown = readers[each.name]
+        if source and each.kind == "local" and "id1" in each.columns:
+            shown.UpdatePipeline(scene.AnimationTime)
+            if not shown.GetDataInformation().GetNumberOfPoints():  # the file has no places
+                shown = simple.GranularLocalJoin(Input=source, Lines=simple.OutputPort(shown, 1))
+        made[each.name] = simple.Show(shown, view)
         made[each.name].ColorArrayName = [None, ""]
         is_wall = each.kind == "walls"
-        for name, value in {"AmbientColor": _GREY, "DiffuseColor": _GREY, "LineWidth": 3, "Opacity": 0.3 if is_wall else 1}.items():
+        grey = [0.6] * 3 if is_wall else _GREY
+        for name, value in {"AmbientColor": grey, "DiffuseColor": grey, "LineWidth": 3, "Opacity": 0.4 if is_wall else 1}.items():
             setattr(made[each.name], name, value)
         if source and not is_wall:
             made[particles.name].Opacity = 0.3
