@@ -115,7 +115,9 @@ BAD = (  # text, message
     ("# Step v\n1 2\n3 4\n5 6 7\n", ":4: expected a row of 2 numbers, got 3"),
     ("# Step v\n1 2\n# Step w\n3 4\n", ":3: expected rows, or the first lines again, got '# Step w'"),
     ("# Step v\n1.5 2\n", "column 'Step': expected timesteps, got 1.5"),
-    (HEAD + "10 1\n1 5\n20 1 1\n", ":6: expected a timestep and its number of rows, 2 numbers, got 3"),
+    ("# Step v\nnan 2\n", "column 'Step': expected timesteps, got nan"),
+    (HEAD + "10 1\n1 5\n20 1 1\n", ":6: expected a timestep and its number of rows, 2 numbers, got 20 1 1"),
+    (HEAD + "10 nan\n1 5\n", ":4: expected a timestep and its number of rows, 2 numbers, got 10 nan"),
     (HEAD + "10 2\n1 5\n", "expected a timestep with all of its rows, got none"))
 for text, message in BAD:
     try:

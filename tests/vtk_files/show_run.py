@@ -28,6 +28,11 @@ def shown(told, *arguments, **options):
     return displays
 
 
+def new_view():
+    ResetSession()
+    CreateRenderView(ViewSize=[200, 200])
+
+
 def raises(kind, text, *arguments, **options):
     try:
         vg.show_run(*arguments, **options)
@@ -77,32 +82,38 @@ for step, time in zip(STEPS, times) if HAS_VTK else ():
     nearest = np.min(np.abs((positions - origin) @ normal)[over] - radii[over])
     assert grains_step == step and abs(nearest) < 1.5e-4, (step, nearest)  # of a radius of 3e-3
 
-ResetSession()
-view = CreateRenderView(ViewSize=[200, 200])
+new_view()
 lack = "contacts_*.dump lacks 3 of 7 timesteps of dump_*.liggghts, the first 1000"
-displays = shown([lack], POST, dt=DT, walls=False, contacts=True, color="radius", view=view, legend=False)
+displays = shown([lack], POST, dt=DT, walls=False, contacts=True, color="radius", view=GetActiveView(), legend=False)
 assert list(displays) == ["dump_*.liggghts", "contacts_*.dump"] and displays["dump_*.liggghts"].ColorArrayName[1] == "radius"
 scene = GetAnimationScene()
 scene.AnimationTime = times[3]
 assert [data_of(display)[2] for display in displays.values()] == [3000, 2000]
 
 # the folder of the active source; walls by name, also where they lack timesteps
-ResetSession()
+new_view()
 dump = vg.reader(os.path.join(HOPPER, "dump_*.liggghts"))
 SetActiveSource(dump)
-view = CreateRenderView(ViewSize=[200, 200])
 told = [left_out] * (not HAS_VTK) + ["walls_*.vtk lacks 2 of 3 timesteps of dump_*.liggghts, the first 2000"] * HAS_VTK
 displays = shown(told, dt=DT, walls="walls_*.vtk")
-assert list(GetTimeKeeper().TimestepValues) == [0.04, 0.06, 0.08] and len(vg.film(view, "film.png")) == 3
+assert list(GetTimeKeeper().TimestepValues) == [0.04, 0.06, 0.08] and len(vg.film(GetActiveView(), "film.png")) == 3
 if HAS_VTK:
     assert [data_of(display)[2] for display in displays.values()] == [4000, 3000]
     os.makedirs("vtk", exist_ok=True)
+    os.makedirs("blocks", exist_ok=True)
     for step in (0, 2000, 4000):
         for name in (f"particles_{step}.vtk", f"particles_boundingBox_{step}.vtk"):
             os.path.exists(os.path.join("vtk", name)) or os.symlink(os.path.join(HOPPER, name), os.path.join("vtk", name))
-    ResetSession()
-    displays = shown([], "vtk")
+    new_view()
+    displays = shown([], "vtk", contacts=True)
     assert list(displays) == ["particles_*.vtk"] and list(GetTimeKeeper().TimestepValues) == [0, 2000, 4000]
+    for step in (0, 4000):
+        for name in (f"blocks_{step}", f"blocks_{step}.vtm"):
+            os.path.exists(os.path.join("blocks", name)) or os.symlink(os.path.join(HOPPER, name), os.path.join("blocks", name))
+    new_view()
+    displays = shown([], "blocks")
+    walls = servermanager.Fetch(displays["walls of blocks_*.vtm"].Input)
+    assert list(displays)[0] == "blocks_*.vtm" and walls.GetNumberOfBlocks() == 2, displays
 
 # bonds that name their particles alone
 shutil.rmtree("bonds", ignore_errors=True)
@@ -110,7 +121,7 @@ os.makedirs("bonds")
 os.symlink(os.path.join(HOPPER, "..", "local", "chain.dump"), "bonds/chain.dump")
 with open("bonds/bonds.local", "w", encoding="ascii") as stream:
     stream.write("ITEM: TIMESTEP\n1000\nITEM: NUMBER OF ENTRIES\n2\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ENTRIES id1 id2\n1 2\n2 3\n")
-ResetSession()
+new_view()
 bonds = shown([], "bonds", contacts=True)["bonds.local"].Input
 assert bonds.GetXMLName() == "GranularLocalJoin" and bonds.GetDataInformation().GetNumberOfCells() == 2, bonds
 for name, column, lines, first in (("tables/chunk2.profile", "vz", ["vz 1", "vz 2", "vz 3", "vz 4"], (0.004, -0.251181)),

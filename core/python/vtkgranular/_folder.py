@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import glob
 import os
 import re
 import warnings
@@ -44,7 +45,10 @@ class Series:
         self.name, self.files, self.bytes = name, [path for path, _ in files], sum(size for _, size in files)
         self.about, self.columns, self.steps = "", [], []
         sample = max(files, key=lambda file: file[1])[0]  # the first one may be empty
-        self.kind = kind_of(sample) or self._kind(sample, has_box)
+        try:
+            self.kind = kind_of(sample) or self._kind(sample, has_box)
+        except OSError as error:
+            self.kind, self.about = "other", str(error)
         if self.kind in _IN_PARAVIEW:
             self.steps = sorted({*steps}) if self.kind != "other" else []
             return
@@ -52,10 +56,9 @@ class Series:
             warnings.simplefilter("ignore")  # who opens the files is told
             try:
                 opened = self.open([sample])
-                names = [column if isinstance(column, str) else column.name for column in opened.columns]
+                self.columns = [column if isinstance(column, str) else column.name for column in opened.columns]
                 is_named = len(files) > 1 and opened.steps.tolist() == [steps[self.files.index(sample)]]
                 self.steps = sorted({*steps}) if is_named else (self.open() if len(files) > 1 else opened).steps.tolist()
-                self.columns = names
             except (c.Error, OSError) as error:
                 self.about = str(error)
         if self.kind == "table" and self.columns[:1] == ["1"] and not self.about:
@@ -185,8 +188,8 @@ class Folder(Mapping[str, Series]):
 
     def _find_dt(self) -> None:
         """Takes the time of a timestep from a log in the folder or the one above, the newest first, if it has one alone."""
-        above = os.path.dirname(self.path)
-        beside = [os.path.join(above, name) for name in os.listdir(above) if "log" in name.lower().split(".")]
+        above = glob.glob(os.path.join(glob.escape(os.path.dirname(self.path)), "*"))
+        beside = [path for path in above if "log" in os.path.basename(path).lower().split(".") and os.path.isfile(path)]
         for path in sorted([*(each.files[-1] for each in self.of("log")), *beside], key=os.path.getmtime, reverse=True):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -202,8 +205,8 @@ class Folder(Mapping[str, Series]):
         """Says which timesteps of the particles a series lacks; empty if none, or if it does not move."""
         steps = self.particles.steps if self.particles else []
         missing = sorted({*steps} - {*series.steps}) if len(series.steps) > 1 else []
-        return missing and f"{series.name} lacks {len(missing)} of {len(steps)} timesteps of {self.particles.name}, the first {missing[0]}: the " \
-            "file before is shown there" or ""
+        return f"{series.name} lacks {len(missing)} of {len(steps)} timesteps of {self.particles.name}, the first {missing[0]}: the file " \
+            "before is shown there" if missing else ""
 
     def _walls(self) -> list[Series]:
         """Returns the walls that move with the particles, those with arrays alone if there are some, as others are the same ones again. If
@@ -211,7 +214,7 @@ class Folder(Mapping[str, Series]):
         found = self.of("walls")
         for is_wanted in (lambda each: "*" in each.name, lambda each: not self._lack(each), lambda each: each.columns):
             found = [each for each in found if is_wanted(each)] or found
-        return found
+        return found or [each for each in [self.particles] if each and each.name.endswith(".vtm")]  # with the walls of custom/vtm
 
     def box_of(self, path: str) -> list[str]:
         """Returns the file with the box of particles in a VTK file, if there is one."""

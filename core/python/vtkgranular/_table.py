@@ -136,7 +136,8 @@ class _TableReader(Lines):
         while line < len(counts):
             rows = self.values[first + 1] if counts[line] == counts[0] > 1 else -1.0
             if not rows.is_integer() or rows < 0:
-                self.fail(f"expected a timestep and its number of rows, {max(2, counts[0])} numbers, got {counts[line]}", self.lines[line])
+                got = " ".join(f"{value:g}" for value in self.values[first:first + counts[line]])
+                self.fail(f"expected a timestep and its number of rows, {max(2, counts[0])} numbers, got {got}", self.lines[line])
             end = line + 1 + int(rows)
             if end > len(counts):
                 break
@@ -177,7 +178,8 @@ class _TableReader(Lines):
         at = next((i for i, name in enumerate(names) if name.lower() in _STEPS), None)
         if at is None:
             self.notes.append((self.lines[0], "expected a column Step or TimeStep, got a table without it, whose rows are numbered"))
-        steps = numpy.arange(len(values)) if at is None else values[:, at].astype(numpy.int64)
+        with numpy.errstate(invalid="ignore"):
+            steps = numpy.arange(len(values)) if at is None else values[:, at].astype(numpy.int64)
         wrong = values[:, at][steps != values[:, at]] if at is not None else ()
         if len(wrong):
             self.fail(f"column {names[at]!r}: expected timesteps, got {wrong[0]}", column=names[at])

@@ -74,7 +74,10 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
     if active:
         simple.HideAll(view)
     source = reader(particles.files, found.dt) if particles else None
-    readers = {each.name: reader(each.files, found.dt) for each in others}
+    readers = {each.name: reader(each.files, found.dt) for each in others if each is not particles}
+    if particles in others:
+        name = f"walls of {particles.name}"
+        readers[name] = simple.GranularMeshReader(registrationName=name, FileNames=particles.files, TimestepSize=found.dt or 1)
     keeper = simple.GetTimeKeeper()  # walls and contacts follow the clock of the particles
     keeper.SuppressedTimeSources = [*keeper.SuppressedTimeSources, *active, *(readers.values() if source else ())]
     scene = simple.GetAnimationScene()
@@ -84,18 +87,18 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
     if source:
         colors = [color] if color else [name for name in ("v", "type") if name in particles.columns]
         made[particles.name] = show(source, view, color=colors[0] if colors else None, box=box, legend=legend)
-    for each in others:
-        shown = readers[each.name]
-        if source and each.kind == "local" and "id1" in each.columns:
+    kinds = {each.name: each.kind for each in others}
+    for name, shown in readers.items():
+        is_wall = kinds.get(name, "walls") == "walls"
+        if source and kinds.get(name) == "local" and "id1" in found[name].columns:
             shown.UpdatePipeline(scene.AnimationTime)
             if not shown.GetDataInformation().GetNumberOfPoints():  # the file has no places
                 shown = simple.GranularLocalJoin(Input=source, Lines=simple.OutputPort(shown, 1))
-        made[each.name] = simple.Show(shown, view)
-        made[each.name].ColorArrayName = [None, ""]
-        is_wall = each.kind == "walls"
+        made[name] = simple.Show(shown, view)
+        made[name].ColorArrayName = [None, ""]
         grey = [0.6] * 3 if is_wall else _GREY
-        for name, value in {"AmbientColor": grey, "DiffuseColor": grey, "LineWidth": 3, "Opacity": 0.4 if is_wall else 1}.items():
-            setattr(made[each.name], name, value)
+        for key, value in {"AmbientColor": grey, "DiffuseColor": grey, "LineWidth": 3, "Opacity": 0.4 if is_wall else 1}.items():
+            setattr(made[name], key, value)
         if source and not is_wall:
             made[particles.name].Opacity = 0.3
     view.ResetActiveCameraToPositiveY()

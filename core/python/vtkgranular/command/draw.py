@@ -83,7 +83,8 @@ def _corners(origin: Any, vectors: Any) -> Any:
     return numpy.array([[[origin + numpy.array([i, j, k]) @ vectors for k in (0, 1)] for j in (0, 1)] for i in (0, 1)])[None]
 
 
-def _add_lines(renderer: Any, data: Any, name: str | None, width: float) -> None:
+def _add_lines(renderer: Any, data: Any, name: str | None, width: float = 0) -> None:
+    """Lines of a width, or a translucent surface."""
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
     mapper, actor = vtkPolyDataMapper(), vtkActor()
@@ -91,8 +92,9 @@ def _add_lines(renderer: Any, data: Any, name: str | None, width: float) -> None
     _colour(mapper, data, name, renderer)
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(*_GREY)
-    actor.GetProperty().SetLineWidth(width)
-    actor.GetProperty().LightingOff()
+    actor.GetProperty().SetLineWidth(width or 1)
+    actor.GetProperty().SetLighting(width == 0)
+    actor.GetProperty().SetOpacity(1 if width else 0.3)
     renderer.AddActor(actor)
 
 
@@ -112,22 +114,12 @@ def _read(path: str, centre: Any) -> Any:
     reader.SetFileName(path)
     surface.SetInputConnection(reader.GetOutputPort())
     surface.Update()
-    data = surface.GetOutput()
+    data = surface.GetOutputDataObject(0)
+    if not data.IsA("vtkPolyData"):
+        raise ValueError(f"{path}: expected a file of VTK without blocks: vtkgranular.show_run draws those in ParaView")
     if data.GetNumberOfPoints():
         data.GetPoints().SetData(numpy_to_vtk(vtk_to_numpy(data.GetPoints().GetData()).astype(float) - centre, deep=True))
     return data
-
-
-def _add_walls(renderer: Any, data: Any) -> None:
-    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
-
-    mapper, actor = vtkPolyDataMapper(), vtkActor()
-    mapper.SetInputData(data)
-    mapper.ScalarVisibilityOff()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(*_GREY)
-    actor.GetProperty().SetOpacity(0.3)
-    renderer.AddActor(actor)
 
 
 def _add_spheres(renderer: Any, data: Any, points: Any, radii: Any, name: str | None) -> None:
@@ -212,7 +204,7 @@ def main() -> None:
     window.AddRenderer(renderer)
     centre = (_draw_file if given["frame"] is None else _draw_frame)(renderer, given)
     for path in given["walls"]:
-        _add_walls(renderer, _read(path, centre))
+        _add_lines(renderer, _read(path, centre), None)
     camera = renderer.GetActiveCamera()
     camera.SetPosition(0.6, -1, 0.45)
     camera.SetFocalPoint(0, 0, 0)
