@@ -14,14 +14,14 @@ from ._save import written_by_paraview
 from ._show import expect_display
 
 
-def _times(view: Any) -> list[float]:
-    """Returns the times of all that a view shows, but for sources whose times the animation leaves out; where nothing has times, those of
-    the readers."""
-    from paraview import simple
+#: Note of a proxy whose times are not those of a film.
+FOLLOWS = "follows the times of others"
 
-    left_out = [each.SMProxy for each in simple.GetTimeKeeper().SuppressedTimeSources]
+
+def _times(view: Any) -> list[float]:
+    """Returns the times of all that a view shows, but for what follows the times of others; where nothing has times, those of the readers."""
     shown_now = [each.Input for each in view.Representations if each.SMProxy.GetProperty("Input") and each.Visibility and each.Input and
-                 each.Input.SMProxy not in left_out]
+                 not each.Input.SMProxy.HasAnnotation(FOLLOWS)]
     return sorted({time for each in shown_now for time in times_of(each)} or
                   {time for each in shown_now for source in upstream(each) for time in times_of(source)})
 

@@ -6,6 +6,7 @@ import os
 from typing import Any, Iterable
 
 from ._errors import upstream
+from ._film import FOLLOWS
 from ._folder import Folder, Series
 from ._library import Remark
 from ._plugin import expect_plugin, has_plugin
@@ -34,8 +35,7 @@ def _chosen(folder: Folder, given: bool | str | Iterable[str], default: list[Ser
 def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = None, view: Any = None, color: str | None = None,
              walls: bool | str | Iterable[str] = True, contacts: bool | str | Iterable[str] = False, box: bool = True,
              legend: bool = True) -> dict[str, Any]:
-    """Shows the particles of a run with their box, walls and contacts, at the times of the particles, and returns the displays by the names
-    of the series, such as "dump_*.liggghts".
+    """Shows the particles of a run with their box, walls and contacts, and returns the displays by the names of the series.
 
     folder    the folder, with the files that vtkgranular.open(folder) lists; None: that of the files of the active source, which is hidden,
               and its times are left out
@@ -48,9 +48,9 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
     box       True: the simulation box as lines
     legend    True: the colour bar
 
-    The animation plays the times of the particles, and is at the last one. Where walls or contacts lack one of these, the file before is
-    shown, and a remark names the series; another one tells where dt is from. The portable plugin has no readers of VTK and STL files, and
-    a remark names the series that it leaves out.
+    The names are those of the files, such as "dump_*.liggghts". The animation plays the times of the particles, and is at the last one.
+    Where walls or contacts lack one of these, the file before is shown, and a remark names the series; another one tells where dt is
+    from. The portable plugin has no readers of VTK and STL files, and a remark names the series that it leaves out.
 
     Raises FileNotFoundError if there is no such folder, ValueError if it has nothing to show or no such series, and what
     vtkgranular.reader and show raise.
@@ -94,6 +94,8 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
             shown.UpdatePipeline(scene.AnimationTime)
             if not shown.GetDataInformation().GetNumberOfPoints():  # the file has no places
                 shown = simple.GranularLocalJoin(Input=source, Lines=simple.OutputPort(shown, 1))
+        if source:
+            shown.SMProxy.SetAnnotation(FOLLOWS, particles.name)
         made[name] = simple.Show(shown, view)
         made[name].ColorArrayName = [None, ""]
         grey = [0.6] * 3 if is_wall else _GREY
