@@ -25,12 +25,10 @@ def pool_limit() -> int | None:
 def set_pool_limit(mib: int | None) -> None:
     """Sets the MiB of memory that a reader may keep for its next frame.
 
-    mib  a whole number: 0 for none. None: the default, an eighth of the machine's memory.
+    mib  a whole number of at least 0, else ValueError. None: the default, an eighth of the machine's memory.
 
-    It holds for readers of this process that have not read a frame yet. For a pvserver, set the environment variable
-    GRANULAR_POOL_MIB where the server starts. Memory is kept because fresh memory is slow. It is given back when two frames
-    did not need it, and with the reader.
-    Raises ValueError if mib is not a whole number of at least 0.
+    It holds for readers of this process that have not read a frame yet; for a pvserver, the environment variable GRANULAR_POOL_MIB where
+    the server starts. Fresh memory is slow; what two frames did not need is given back, and all with the reader.
     """
     if mib is None:
         os.environ.pop(_VARIABLE, None)
