@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """symbols.py nm library...: no library shows a symbol of the core, which is linked into it and whose
-layout is nobody else's business. The C libraries show the functions that their headers declare, and nothing else."""
+layout is nobody else's business. The C libraries show the functions that their headers declare, and nothing else. Functions that glibc 2.29
+has anew are wrapped in the portable library, for systems with 2.28."""
 import os
 import re
 import subprocess
@@ -23,6 +24,14 @@ def declared(header):
         return set(re.findall(r"^GRANULAR_(?:BONDS_)?API[^;(]*?(\w+)\(", stream.read(), re.MULTILINE))
 
 
+def not_wrapped(nm, library):
+    """The functions of glibc 2.29 that core/c/CMakeLists.txt does not wrap."""
+    listing = subprocess.run([nm, "-D", "--undefined-only", library], check=True, capture_output=True, text=True).stdout
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", "core", "c", "CMakeLists.txt"), encoding="ascii") as stream:
+        wrapped = set(re.findall(r"--wrap=(\w+)", stream.read()))
+    return sorted(set(re.findall(r" (\w+)@GLIBC_2\.29$", listing, re.MULTILINE)) - wrapped)
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit("usage: symbols.py nm library...")
@@ -38,6 +47,9 @@ def main():
             if functions != own:
                 print(f"{os.path.basename(library)}:1: shows {sorted(functions ^ own)}, or lacks them")
                 shown += 1
+        for name in not_wrapped(sys.argv[1], library) if os.path.basename(library).startswith("libgranular.so") else ():
+            print(f"{os.path.basename(library)}:1: needs {name} of glibc 2.29: add it to old_libc.c and --wrap in core/c/CMakeLists.txt")
+            shown += 1
         for name in names:
             if "granular::" in name:
                 print(f"{os.path.basename(library)}:1: shows {name}")
