@@ -2,7 +2,10 @@
 """Writes what the filters and sources of a plugin make: filters.py PLUGIN FOLDER, on one or more ranks.
 
 FOLDER/NAME.json has what is told of one row of FILTERS by rank: all outputs that each rank has at up to three times, warnings and errors.
+Of deleted ones nothing stays, though no garbage is collected.
 """
+import collections
+import gc
 import json
 import os
 import re
@@ -243,6 +246,19 @@ with open({os.path.join(folder, key)!r} + f"_{{world.GetLocalProcessId()}}.json"
     return simple.ProgrammableFilter(Input=servermanager.OutputPort(source, port), OutputDataSetType="vtkTable", Script=script)
 
 
+def alive():
+    """Returns how many algorithms of the portable plugin there are, and runs and frames of the library."""
+    names = collections.Counter(type(each).__name__ for each in gc.get_objects() if type(each).__module__.startswith("vtkgranular"))
+    return len([name for name in names.elements() if name.startswith("Granular")]), names["_Handle"]
+
+
+def memory():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+gc.disable()
+used = []
 for number, (name, properties, inputs) in enumerate(FILTERS):
     made = getattr(simple, name)(**{prop: make() for prop, make in inputs.items()})
     for prop, value in properties.items():
@@ -266,4 +282,10 @@ for number, (name, properties, inputs) in enumerate(FILTERS):
     rank = simple.servermanager.vtkProcessModule.GetProcessModule().GetPartitionId()
     with open(os.path.join(folder, f"{key}_said_{rank}.json"), "w", encoding="utf-8") as file:
         json.dump({"row": [name, repr(properties)], "times": repr(times), "said": said}, file, indent=1)
-    simple.Delete(made)
+    for source in (made, *simple.GetSources().values()):
+        simple.Delete(source)
+    del made, source, teller
+    used.append(memory())
+    algorithms, handles = alive()  # VTK keeps the attributes of those that were deleted at once until another one is
+    assert not algorithms and handles <= 8, f"{key}: expected nothing to stay, got {algorithms} algorithms, {handles} runs and frames"
+assert used[-1] - used[10] < 200, f"expected less than 200 MiB to stay, got {used}"
