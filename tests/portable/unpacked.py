@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens, shows and saves the dump of a folder that was unpacked.
+"""Opens, shows, averages and saves the dump of a folder that was unpacked.
 
 UNPACKED names the folder, and PROGRAM what runs this: python3, wheel (Python with the package installed), or a program of ParaView.
 """
@@ -38,8 +38,11 @@ def in_paraview(dump):
     simple.ResetCamera(view)
     simple.SaveScreenshot(f"{program}.png", view, ImageResolution=[400, 400])
     simple.SaveData(f"{program}.dump", proxy=reader)
+    simple.SaveData(f"{program}.euler", proxy=globals()["GranularEulerAverage"](Input=reader, CellCounts=[2, 3, 4]))
 
     vg = in_python(f"{program}.dump", 1)
+    cells = vg.open(f"{program}.euler")[0]
+    assert cells.rows == 24 and 0.0025 < cells["radius"].max() < 0.0035, cells
     assert vg.load_plugin() == os.path.join(folder, "Granular.py"), vg.load_plugin()
     return vg
 
