@@ -29,6 +29,10 @@ expected = made("alone")
 with open(SOURCE, "rb") as file:
     assert expected[1] == file.read()
 with connected():
+    try:
+        vg.load_plugin()
+    except RuntimeError as error:
+        assert "load_plugin(remote=True)" in str(error), error
     assert not vg._plugin.has_plugin()
     LoadPlugin(PLUGIN, remote=True, ns=globals())
     LoadPlugin(PLUGIN, remote=False, ns=globals())

@@ -66,7 +66,9 @@ def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
         path = _plugin_beside_package(servermanager)
         simple.LoadPlugin(path, remote=remote)  # names into paraview.simple
     if not has_plugin():
-        raise RuntimeError(f"ParaView did not load {path}; its messages say why")
+        here = not remote and servermanager.ActiveConnection.IsRemote()
+        raise RuntimeError(f"expected the plugin on the server, too, got {path} here alone: load_plugin(remote=True) loads it there" if here else
+                           f"ParaView did not load {path}; its messages say why")
     # Not by a second LoadPlugin, which is an error in pvbatch.
     for name in list(vars(simple)) if ns is not None else ():
         if not name.startswith("_"):

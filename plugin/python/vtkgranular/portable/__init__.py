@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Readers, writers, sources and filters for any ParaView, in Python over the C library: what plugin/portable/Granular.py shows to ParaView."""
+"""Readers, writers, sources and filters for any ParaView, in Python over the C library: what Granular.py beside it shows to ParaView."""
 from __future__ import annotations
 
 import gc
