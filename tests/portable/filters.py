@@ -248,7 +248,7 @@ with open({os.path.join(folder, key)!r} + f"_{{world.GetLocalProcessId()}}.json"
 
 def alive():
     """Returns how many algorithms of the portable plugin there are, and runs and frames of the library."""
-    names = collections.Counter(type(each).__name__ for each in gc.get_objects() if type(each).__module__.startswith("vtkgranular"))
+    names = collections.Counter(type(each).__name__ for each in gc.get_objects() if str(type(each).__module__).startswith("vtkgranular"))
     return len([name for name in names.elements() if name.startswith("Granular")]), names["_Handle"]
 
 

@@ -115,11 +115,14 @@ def together(work: Callable[[], Any]) -> Any:
     except Exception as error:  # noqa: BLE001 (raised on all ranks)
         failure = error
     failures = everyone(failure)
-    for cancelled in (False, True):
-        for rank, each in enumerate(failures):
-            if each is not None and isinstance(each, c.Cancelled) == cancelled:
-                same = cancelled or all(str(other) == str(each) for other in failures)
-                raise each if same else c.Error(f"{each} (on rank {rank} of {len(failures)})")
+    try:
+        for cancelled in (False, True):
+            for rank, each in enumerate(failures):
+                if each is not None and isinstance(each, c.Cancelled) == cancelled:
+                    same = cancelled or all(str(other) == str(each) for other in failures)
+                    raise each if same else c.Error(f"{each} (on rank {rank} of {len(failures)})")
+    finally:
+        failure = failures = each = None  # or this frame, which the traceback has, keeps the error, and with it the proxies of all callers
     return made
 
 
