@@ -190,6 +190,15 @@ for wanted in ("box", "bonds"):
     except ValueError as error:
         assert wanted.capitalize() in str(error), error
 
+# cells, parts of them and subdomains are surfaces, contacts lines, coloured by their arrays, also where the first frame is empty
+good = os.path.join(os.environ["GRANULAR_DATA"], "good")
+contacts = vg.reader(os.path.join(good, "local", "contacts.dump"), Preset="ContactsForce")
+cells = GranularEulerAverage(Input=vg.reader(os.path.join(good, "grains.dump")))
+for source, name in ((cells, "volumefraction"), (Threshold(Input=cells, Scalars=["CELLS", "volumefraction"]), "volumefraction"),
+                     (GranularDecomposition(Input=packing), "nlocal"), (contacts, "force")):
+    display = vg.show(source, view, color=name, box=True)
+    assert display.Representation != "Grains" and display.ColorArrayName[:2] == ["CELLS", name], (display.Representation, name)
+
 # a legend, and none unless wanted
 typed = vg.reader("typed.dump")
 for wanted in (False, True):

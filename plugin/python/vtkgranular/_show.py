@@ -2,9 +2,10 @@
 """Particles as spheres."""
 from __future__ import annotations
 
+import contextlib
 import math
 import os
-from typing import Any
+from typing import Any, Callable, Iterator, Sequence
 
 from ._errors import output_names, upstream
 from ._plugin import expect_plugin
@@ -46,31 +47,51 @@ def _is_scaled(source: Any) -> bool:
         array.GetStringValue(0) == "Scaled"
 
 
-def _range_of(source: Any, name: str, view: Any) -> tuple[float, float] | None:
-    """The range of an array, or of a vector's length; where the frame lacks the array, in the last frame.
-
-    Returns None if the last frame has no arrays, and raises ValueError if it has only others.
-    """
-    array = source.PointData[name]
-    times = [] if array else [time for each in upstream(source) if each.SMProxy.GetProperty("TimestepValues")
-                              for time in each.TimestepValues]
+@contextlib.contextmanager
+def _frame_with(found: Callable[[], Any], source: Any, view: Any) -> Iterator[Any]:
+    """The frame that is shown or, if nothing is found in it, the last one; yields what was found."""
+    seen = found()
+    times = [] if seen else [time for each in upstream(source) if each.SMProxy.GetProperty("TimestepValues")
+                             for time in each.TimestepValues]
     if times:
         source.UpdatePipeline(max(times))
-        array = source.PointData[name]
-    found = array and array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
-    names = ", ".join(sorted(source.PointData.keys()))
-    if times:
-        source.UpdatePipeline(view.ViewTime)
-    if not array and names:
-        raise ValueError(f"expected a point array to colour by, of {names}, got '{name}'")
-    return found
+        seen = found()
+    try:
+        yield seen
+    finally:
+        if times:
+            source.UpdatePipeline(view.ViewTime)
+
+
+def _is_mesh(source: Any, view: Any) -> bool:
+    """True for walls, and for cells, subdomains and lines, whose arrays are all at the cells, as are those of slices through cells."""
+    if any(each.GetXMLName() == "GranularMeshReader" for each in upstream(source)):
+        return True
+    with _frame_with(lambda: source.PointData.keys() or source.CellData.keys(), source, view):
+        return bool(source.CellData.keys()) and not source.PointData.keys()
+
+
+def _range_of(source: Any, name: str, view: Any, kinds: Sequence[str] = ("POINTS",)) -> tuple[str, tuple[float, float] | None]:
+    """Where an array is, and its range or that of a vector's length; where the frame lacks the array, in the last frame.
+
+    The range is None if the last frame has no arrays. Raises ValueError if it has only others.
+    """
+    data = {"POINTS": source.PointData, "CELLS": source.CellData}
+    with _frame_with(lambda: next((kind for kind in kinds if data[kind][name]), None), source, view) as kind:
+        if kind:
+            array = data[kind][name]
+            return kind, array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0)
+        names = ", ".join(sorted(key for kind in kinds for key in data[kind].keys()))
+    if names:
+        raise ValueError(f"expected {'an' if len(kinds) > 1 else 'a point'} array to colour by, of {names}, got '{name}'")
+    return kinds[0], None
 
 
 def _colour_by_type(display: Any, source: Any, view: Any) -> None:
     """A colour and a name for each type."""
     from paraview import simple
 
-    first, last = _range_of(source, "type", view) or (1, 0)
+    first, last = _range_of(source, "type", view)[1] or (1, 0)
     types = range(int(first), int(last) + 1)
     table = simple.GetColorTransferFunction("type")
     table.InterpretValuesAsCategories = 1
@@ -101,49 +122,24 @@ def _show_output(source: Any, name: str, view: Any, **properties: Any) -> None:
                      (": GranularLocalJoin draws the bonds of another file" if name == "Bonds" else ""))
 
 
-def _show_mesh(source: Any, view: Any, color: str | None, legend: bool) -> Any:
-    """Shows walls and contacts as surfaces and lines."""
+def _colour(display: Any, source: Any, view: Any, name: str, kinds: Sequence[str]) -> None:
+    """Colours by an array, also where only later frames have it."""
     from paraview import simple
 
-    display = simple.Show(source, view)
-    if color is not None:
-        kinds = [kind for kind, data in (("CELLS", source.CellData), ("POINTS", source.PointData)) if data[color]]
-        if not kinds:
-            names = ", ".join(sorted([*source.CellData.keys(), *source.PointData.keys()]))
-            raise ValueError(f"expected an array to colour by, of {names}, got '{color}'")
-        simple.ColorBy(display, (kinds[0], color))
-        display.SetScalarBarVisibility(view, legend)
-    return display
+    kind, limits = _range_of(source, name, view, kinds)
+    if source.GetDataInformation().GetNumberOfPoints():
+        simple.ColorBy(display, (kind, name))
+        return
+    display.ColorArrayName = [kind, name]
+    display.LookupTable = simple.GetColorTransferFunction(name)
+    if limits:
+        display.LookupTable.RescaleTransferFunction(*limits)
 
 
-def show(reader: Any, view: Any = None, radius: str | float = "radius", color: str | None = None, box: bool = False,
-         bonds: bool = False, legend: bool = False) -> Any:
-    """Shows particles as spheres and returns their display.
-
-    reader  a GranularDumpReader, or any source or filter whose first output has points. Walls and contacts of a GranularMeshReader are
-            shown as surfaces and lines, coloured by cells or points.
-    view    a render view; by default the active one, or a new one.
-    radius  name of the point array with the radii, in the unit of the points, or one number for all.
-            Ellipsoids and superquadrics have the sizes of their own arrays instead. Where there is no such array, and where the points
-            are scaled coordinates, spheres of half the mean distance of the points are shown.
-    color   name of a point array to colour by; by default as ParaView decides. "type" gives each type a colour and a
-            name of its own.
-    box     True: shows the simulation box, the output Box of the reader or source, as well.
-    bonds   True: shows the bonds, its output Bonds, as lines.
-    legend  True: shows the colour bar of `color`, or the names of the types.
-
-    The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the same on any number of
-    ranks. Each pixel has the depth and the light of the surface that is seen there. Colours of numbers span the values of the frame
-    shown now or, if that has no particles, of the last frame. Raises RuntimeError if the plugin was not loaded before, or if there is
-    no display to draw on; ValueError if there is no array `color`, or no output for box or bonds.
-    """
+def _show_particles(reader: Any, view: Any, display: Any, radius: str | float, color: str | None) -> None:
+    """Shows particles as spheres."""
     from paraview import simple
 
-    view = view or simple.GetActiveViewOrCreate("RenderView")
-    expect_display(view)
-    if any(each.GetXMLName() == "GranularMeshReader" for each in upstream(reader)):
-        return _show_mesh(reader, view, color, legend)
-    display = simple.Show(reader, view)
     expect_plugin("Grains" in display.GetProperty("Representation").Available)
     display.SetRepresentationType("Grains")
     # ParaView does not know the arrays of a frame without particles: later ones will have them
@@ -159,21 +155,49 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
         display.GrainScale = _spacing_radius(reader) or 1.0
     else:
         display.GrainScale = float(radius)
+    if color == "type":
+        _colour_by_type(display, reader, view)
+    elif color is not None:
+        _colour(display, reader, view, color, ["POINTS"])
+
+
+def show(reader: Any, view: Any = None, radius: str | float = "radius", color: str | None = None, box: bool = False,
+         bonds: bool = False, legend: bool = False) -> Any:
+    """Shows particles as spheres and returns their display.
+
+    reader  a GranularDumpReader, or any source or filter whose first output has points. Walls of a GranularMeshReader, and cells, slices
+            through them, subdomains and contacts are shown as surfaces and lines, coloured by cells or points.
+    view    a render view; by default the active one, or a new one.
+    radius  name of the point array with the radii, in the unit of the points, or one number for all.
+            Ellipsoids and superquadrics have the sizes of their own arrays instead. Where there is no such array, and where the points
+            are scaled coordinates, spheres of half the mean distance of the points are shown.
+    color   name of an array to colour by, of spheres a point array; by default as ParaView decides. "type" gives each type a colour and a
+            name of its own.
+    box     True: shows the simulation box, the output Box of the reader or source, as well.
+    bonds   True: shows the bonds, its output Bonds, as lines.
+    legend  True: shows the colour bar of `color`, or the names of the types.
+
+    The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the same on any number of
+    ranks. Each pixel has the depth and the light of the surface that is seen there. Colours of numbers span the values of the frame
+    shown now or, if that has no particles, of the last frame. Raises RuntimeError if the plugin was not loaded before, or if there is
+    no display to draw on; ValueError if there is no array `color`, or no output for box or bonds.
+    """
+    from paraview import simple
+
+    view = view or simple.GetActiveViewOrCreate("RenderView")
+    expect_display(view)
+    display = simple.Show(reader, view)  # which updates the arrays, too
+    if _is_mesh(reader, view):
+        if display.Representation in ("Outline", "Grains"):  # of images, and of frames without lines
+            display.SetRepresentationType("Surface")
+        if color is not None:
+            _colour(display, reader, view, color, ["CELLS", "POINTS"])
+    else:
+        _show_particles(reader, view, display, radius, color)
     if box:
         _show_output(reader, "Box", view)
     if bonds:
         _show_output(reader, "Bonds", view, LineWidth=2, AmbientColor=_GREY, DiffuseColor=_GREY)
-    if color == "type":
-        _colour_by_type(display, reader, view)
-    elif color is not None and empty:
-        display.ColorArrayName = ["POINTS", color]
-        display.LookupTable = simple.GetColorTransferFunction(color)
-        limits = _range_of(reader, color, view)
-        if limits:
-            display.LookupTable.RescaleTransferFunction(*limits)
-    elif color is not None:
-        _range_of(reader, color, view)
-        simple.ColorBy(display, ("POINTS", color))
     if legend and color is not None:
         display.SetScalarBarVisibility(view, True)
     return display
