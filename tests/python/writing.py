@@ -195,9 +195,9 @@ with warnings.catch_warnings():
 # tables and numpy: all digits, several frames with their times, a file for each
 hard = numpy.concatenate([hard.ravel(), [-0.0, 5e-324, numpy.nan, -numpy.inf]])
 single = (numpy.arange(len(hard)) / 3).astype(">f4")
-given = {"id": numpy.arange(len(hard)), "c_a": hard, "c_b": single[:, None], "word": ["a,\"b"] * len(hard)}
+given = {"id": numpy.arange(len(hard)), "c_a": hard, "c_b": single[:, None], "word": ["a,\"b"] * len(hard), "tau": numpy.ones((len(hard), 3))}
 vg.write("all.csv", given)
-assert text_of("all.csv").startswith("id,c_a,c_b,word\n")
+assert text_of("all.csv").startswith("id,c_a,c_b,word,tau_XY,tau_XZ,tau_YZ\n")
 table = numpy.genfromtxt("all.csv", delimiter=",", names=True, usecols=(0, 1, 2))
 assert table["c_a"].tobytes() == hard.tobytes() and table["c_b"].astype(">f4").tobytes() == single.tobytes()
 vg.write("all.npz", {**given, "points": numpy.ones((len(hard), 3))}, step=7, box=box)

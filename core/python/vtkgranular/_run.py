@@ -549,6 +549,9 @@ class Rows(Frame):
 
 _COMPONENTS = {"points": ("x", "y", "z"), "ends": ("x1", "y1", "z1", "x2", "y2", "z2"), "": ()}
 
+# Components of tensors, by ParaView's names for them.
+_TENSORS = {"sigma": "XX YY ZZ", "tau": "XY XZ YZ"} | dict.fromkeys(("fabric", "contact_stress"), "XX YY ZZ XY XZ YZ")
+
 
 def _component_names(column: Column) -> Sequence[str]:
     """The columns that make an array, or names like theirs of one that no columns make."""
@@ -558,6 +561,9 @@ def _component_names(column: Column) -> Sequence[str]:
         return column.columns
     if column.name == "image":
         return "ix", "iy", "iz"
+    tensor = _TENSORS.get(column.name.removesuffix("_kinetic").removesuffix("_contact"), "").split()
+    if len(tensor) == column.components:
+        return [f"{column.name}_{part}" for part in tensor]
     if "_" not in column.name and column.components == 3:
         return [column.name + axis for axis in "xyz"]
     return [f"{column.name}[{i}]" for i in range(1, column.components + 1)]
