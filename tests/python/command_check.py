@@ -35,7 +35,8 @@ def dump(name, *frames, bounds="ff ff ff"):
 
 
 sound = ["1 1 0.512345678 0.5 0.5 0.1", "2 1 0.112345678 0.2 0.3 0.1"]
-assert check(dump("sound.dump", sound, sound), status=0)["remarks"] == []
+for frames in ((sound, sound), (["1 1 0.5 0.2 0.3 0.01"], ["1 1 0.512345678 0.2 0.3 0.01"])):  # the first frame of the second is a lattice
+    assert check(dump("sound.dump", *frames), status=0)["remarks"] == []
 for what, frames, words in (
         ("an id twice", [sound + ["1 1 0.9 0.9 0.9 0.1"]], "1 ids occur more than once: 1"),
         ("not a number", [["1 1 0.512345678 nan 0.5 0.1"]], "1 values of points are NaN"),

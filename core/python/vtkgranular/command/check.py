@@ -45,7 +45,7 @@ class Checker:
         self._ids: Any = None
         self._gone = self._new = 0
         self._first_gone = ""
-        self._few: tuple[float, int, int] | None = None
+        self._coarse: dict[str, tuple[float, int, int]] = {}  # unit of the first digit over the radius, its step, digits; by form
         self._outside: dict[str, list[tuple[str, int, float]]] = {}  # a little, along each axis
 
     def run(self, run: Any) -> None:
@@ -121,20 +121,17 @@ class Checker:
             self._digits(frame, least)
 
     def _digits(self, frame: Any, radius: float) -> None:
-        """How wrong the digits of the text leave the largest coordinate."""
+        """How wrong the digits of the text leave the largest coordinate. Round numbers, as of a lattice, have fewer in single frames."""
         import numpy
 
         for form in ("x y z", "xu yu zu", "xs ys zs"):
-            names = [name for name in form.split() if frame.digits.get(name)]
-            digits = max((frame.digits[name] for name in names), default=0)  # round numbers have fewer
-            for name in names:
+            for name in (name for name in form.split() if frame.digits.get(name)):
                 largest = float(numpy.nanmax(numpy.abs(frame[name])))
                 edge = numpy.linalg.norm(frame.box.vectors["xyz".index(name[0])]) if name[1:] == "s" and frame.box else 1.0
-                if not 0 < largest < numpy.inf:
-                    continue
-                wrong = 0.5 * float(edge) * 10.0 ** (numpy.floor(numpy.log10(largest)) - digits + 1) / radius
-                if wrong > FEW_DIGITS and (self._few is None or wrong > self._few[0]):
-                    self._few = wrong, digits, frame.step
+                if 0 < largest < numpy.inf:
+                    unit, step, digits = self._coarse.get(form, (0.0, 0, 0))
+                    here = float(edge) * 10.0 ** float(numpy.floor(numpy.log10(largest))) / radius
+                    self._coarse[form] = (*max((unit, step), (here, frame.step)), max(digits, frame.digits[name]))
 
     def finish(self, said: list[str]) -> None:
         """Adds what all frames together tell, and what was said while they were read."""
@@ -151,8 +148,9 @@ class Checker:
             self.remarks.append(f"{self._gone} ids are not in the frame after; first at {self._first_gone}")
         if self._new:
             self.remarks.append(f"{self._new} ids come in a later frame")
-        if self._few:
-            part, digits, step = self._few
+        part, digits, step = max(((0.5 * unit * 10.0 ** (1 - digits), digits, step) for unit, step, digits in self._coarse.values()),
+                                 default=(0, 0, 0))
+        if part > FEW_DIGITS:
             self.remarks.append(f"positions have {digits} digits: each is wrong by up to {100 * part:.2g} % of the smallest radius (step "
                                 f"{step}); `dump_modify ID format \"%d %d %.12g ...\"`, a format for each column, keeps more")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import warnings
 from typing import Any
 
 _GREY = (0.35, 0.35, 0.35)
@@ -195,6 +196,7 @@ def main() -> None:
     from vtkmodules.vtkIOImage import vtkPNGWriter
     from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
+    warnings.showwarning = lambda message, *_: print(message, file=sys.stderr)  # type: ignore[assignment]
     given = json.load(sys.stdin)
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)

@@ -114,6 +114,6 @@ def run(arguments: argparse.Namespace) -> None:
         # a path, because with -m Python looks for modules in the current folder, too
         done = subprocess.run(_with_display([python, program]), input=json.dumps({**given, "picture": temporary}), capture_output=True, text=True)
         if done.returncode or not os.path.getsize(temporary):
-            raise RuntimeError(" ".join((done.stdout + done.stderr).split()) or f"{picture}: it was not drawn")
+            raise RuntimeError("; ".join(filter(None, map(str.strip, (done.stdout + done.stderr).splitlines()))) or f"{picture}: it was not drawn")
     shown = {"given": arguments.files, "picture": picture, **facts, "color": arguments.color, "size": given["size"]}
     print(json_text(shown) if arguments.json else arguments.output or os.path.basename(picture))
