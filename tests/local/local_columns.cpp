@@ -77,7 +77,8 @@ TEST(LocalColumns, Undecidable)
   EXPECT_EQ(taken("atype aatom1 aatom2 aatom3", { "1 1 2 3", "1 2 3 4" }),
     "atype aatom1 aatom2 aatom3:1: no preset has as many columns: the columns keep their names "
     "(Preset AsNamed), and no lines are drawn. To draw them, name the particles in ColumnMap, as "
-    "in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2\n");
+    "in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2, or write the keywords of the compute there, "
+    "as in pos id force\n");
 }
 
 // Two contacts with two walls, or two bonds of two types: few rows do not say which.

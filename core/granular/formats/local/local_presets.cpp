@@ -283,7 +283,8 @@ std::vector<std::string> find_columns(const std::vector<std::string>& columns,
     notices.push_back({ where,
       std::string("no preset ") + (as_long.empty() ? "has as many columns" : "fits the values") +
         ": the columns keep their names (Preset AsNamed), and no lines are drawn. To draw them, "
-        "name the particles in ColumnMap, as in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2" });
+        "name the particles in ColumnMap, as in id1=2 id2=3, or the ends, x1 y1 z1 x2 y2 z2, or "
+        "write the keywords of the compute there, as in pos id force" });
     return name_columns(columns);
   }
   const LocalPreset& found = *fitting[0];
