@@ -22,6 +22,7 @@ constexpr const char* unpacked = "unpack it first; only gzip and Zstandard need 
 constexpr const char* opened =
   "GranularVTKParticleReader opens particles in it, and GranularMeshReader walls,";
 constexpr const char* downloaded = "a download has probably gone wrong; download the file itself";
+// the listing of a folder in Python looks for the names of these functions
 constexpr const char* logged = "vtkgranular.read_log reads it in Python";
 constexpr const char* tabled = "vtkgranular.read_table reads it in Python";
 constexpr const char* run = "run it, and open the files that its dump commands write";

@@ -33,10 +33,7 @@ Open, show, fetch and save with paraview.simple:
 
 The same in all versions of ParaView:
 
-    vtkgranular.preset("Plasma")                 the name of a colour preset
-    vtkgranular.label_format("%.1f")             properties for the numbers of a colour bar
-    vtkgranular.process_ids(filter)              a filter that gives each point its rank
-    vtkgranular.set_properties(proxy, ...)       several properties at once
+    vtkgranular.preset, label_format, process_ids, set_properties
 
 help(vtkgranular.open) describes one function. The VTK classes, such as vtkgranular.vtkGranularDumpReader, work in pvpython and in
 plain python3; help(vtkgranular.vtkGranularDumpReader) describes one with all that it inherits. Importing this package imports

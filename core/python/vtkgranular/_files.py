@@ -15,10 +15,9 @@ def files(*patterns: str | os.PathLike[str]) -> list[str]:
               but not run_first.dump beside it. Plain and compressed files go together: "post/*.dump" also finds
               post/100.dump.gz and post/100.dump.zst.
 
-    Names of folders that are there stand for themselves: "run [3]/*.dump" finds the files in the folder "run [3]".
-    The names are what vtkgranular.open, vtkgranular.reader, OpenDataFile and the property FileNames take. The boundingBox files of
-    LIGGGHTS are left out. Call it again, and set FileNames, when a running simulation has added files. Raises FileNotFoundError
-    if a pattern fits no file, and OSError for the name of something that is not a file, or of a folder that cannot be listed.
+    Names of folders that are there stand for themselves: "run [3]/*.dump" finds the files in the folder "run [3]". The boundingBox files
+    of LIGGGHTS are left out. Call it again, and set FileNames, when a running simulation has added files. Raises FileNotFoundError if
+    a pattern fits no file, and OSError for what is not a file, or a folder that cannot be listed.
     """
     library, names = c.library(), c.c_void_p()
     if not patterns:

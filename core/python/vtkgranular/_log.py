@@ -211,25 +211,15 @@ def expect_dt(dt: float | None) -> None:
 def read_log(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None) -> Log:
     """Reads the thermo tables of a log of LAMMPS or LIGGGHTS, and returns them as a Log. Needs numpy alone.
 
-    paths  the log, or what the program printed on the screen, plain or .gz, .bz2, .xz, .zst; a list of logs, in the order in which
-           they were written
-    dt     the time of one timestep, greater than 0, in the unit of the run. None: the log says it, by its commands `timestep` and
-           `units` or by LAMMPS's line "Time step". If the timestep changes, times go on from those of the run before. After
-           `reset_timestep` to a smaller timestep they begin at 0. A column Time counts if it differs by more than rounding, as with
-           `fix dt/reset`. The last dt in a column Dt, or Time over Step, holds until the next command `timestep`. If the log says
-           nothing, times are timesteps.
+    paths  the log, or what the program printed on the screen, plain or .gz, .bz2, .xz, .zst; a list of logs in their order
+    dt     the time of one timestep, greater than 0, in the unit of the run. None: the log says it, by its commands `timestep`,
+           `units` and `reset_timestep`, or a column Time or Dt; if it says nothing, times are timesteps
 
-    The function reads thermo_style one, multi, custom and yaml, and the tables of NEB, of any number of runs. Columns may have any names.
-    Names with blanks come from `thermo_modify colname`; numbers stand for names that the log abbreviates by "...". Other lines between
-    the rows are skipped. If no table has the column Step, rows are numbered from 0; else the column Time gives the timesteps of a table
-    without Step. A last row needs no line feed.
+    The function reads thermo_style one, multi, custom and yaml, and the tables of NEB, of any number of runs. Columns may have any names. If
+    no table has the column Step, rows are numbered from 0. One warning a file tells what is left out, such as a last row that ends early.
 
-    One warning a file tells what is left out: a last row that ends early, because a simulation may be writing it; lines of numbers that
-    are no rows of their table; tables without rows that fit their header, or without Step and Time; runs without a table.
-
-    Raises FileNotFoundError if there is no such file; vtkgranular.Error with path, line and column if a row has a word in place of a
-    number, if a file is binary or empty, if a line has 4 MiB or more, if the content of a compressed log exceeds 256 MiB and 200 times
-    its size, and if it has no table with rows; vtkgranular.ArgumentError for a dt that cannot be.
+    Raises FileNotFoundError; vtkgranular.Error with path, line and column if a row has a word in place of a number, if a file is binary or
+    empty, if a line has 4 MiB or more, if the content of a compressed log exceeds 256 MiB and 200 times its size, and without rows.
     """
     given = [paths] if isinstance(paths, (str, bytes, os.PathLike)) else list(paths)
     if not given:

@@ -990,9 +990,8 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
                     threads where ranks share a machine. None (default): this process alone
 
     The frames are found now, and read when they are asked for. A last frame that ends early is left out, because a simulation may
-    be writing it: `granular check` reports it. Raises FileNotFoundError if there is no such file, vtkgranular.Error
-    with path, line and column if the files cannot be read, ValueError for a choice that there is not. Remarks that are no errors
-    are warnings, vtkgranular.Remark with path and line.
+    be writing it: `granular check` reports it. Raises FileNotFoundError, vtkgranular.Error with path, line and column, and ValueError for a
+    choice that there is not. Remarks that are no errors are warnings, vtkgranular.Remark with path and line.
     """
     given = locals()
     if not isinstance(paths, bytes) and isinstance(paths, (str, os.PathLike)) and os.path.isdir(paths):

@@ -61,19 +61,15 @@ def _times(steps: list[int], dt: float) -> list[float]:
 
 def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float,
                  path: str | os.PathLike[str] | None = None) -> str:
-    """Writes a .series file, which gives ParaView the times of other files, and returns its path.
-
-    Open it instead of STL or VTK files, which hold no times. Their times are then those of a reader whose TimestepSize is dt.
+    """Writes a .series file, which gives ParaView's own readers the times of other files, and returns its path.
 
     files  names of the files, in any order: mesh_0.stl, mesh_1000.stl, ... The step of each is the last number in its name.
-    dt     time of one step, greater than 0: time = step x dt, the double nearest to the product of the decimal numbers, as readers
-           have it: 3 x 1e-5 is 3e-05. Steps from 2^53 on that would share a time get the next doubles, with a warning.
-    path   the file to write, which must end in '.series'. By default it lies beside the first file and is called like it, without
-           the number: mesh.stl.series.
+    dt     time of one step, greater than 0: time = step x dt, the double nearest to the product of the decimal numbers. Steps from
+           2^53 on that would share a time get the next doubles, with a warning.
+    path   the file to write, which ends in '.series'; by default beside the first file and called like it, without the number
 
-    Names in the file are relative to it. An old file is replaced whole or left as it was.
-    Raises ValueError: no files, no number in a name, a step that occurs twice, a dt or a path that cannot be, an infinite time;
-    FileNotFoundError if a file does not exist; OSError if the file cannot be written.
+    Names in the file are relative to it. An old file is replaced whole or left as it was. Raises ValueError: no files, no number in a name,
+    a step that occurs twice, a dt or a path that cannot be; FileNotFoundError if a file does not exist; OSError.
     """
     files = [os.fsdecode(file) for file in ([files] if isinstance(files, (str, bytes, os.PathLike)) else files)]
     if not files:

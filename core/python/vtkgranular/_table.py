@@ -199,17 +199,12 @@ class _TableReader(Lines):
 def read_table(path: str | os.PathLike[str], dt: float | None = None) -> Table:
     """Reads a table that LAMMPS or LIGGGHTS writes beside dumps, and returns it as a Table. Needs numpy alone.
 
-    path  the file of `fix ave/time` (scalars, vectors such as g(r) of `compute rdf`, YAML), `ave/chunk`, `ave/spatial`, `ave/histo`,
-          `ave/correlate` or `print`, also with commas; plain or .gz, .bz2, .xz, .zst
+    path  the file of `fix ave/time`, `ave/chunk`, `ave/spatial`, `ave/histo`, `ave/correlate` or `print`, also in YAML or with commas;
+          plain or .gz, .bz2, .xz, .zst
     dt    the time of one timestep, greater than 0, in the unit of the run. None: times are timesteps
 
-    The last line of titles has the names of the columns, if they are as many as the numbers in a row. If a timestep repeats, as where a
-    run begins, the last row counts, as the last frame of a restarted run does. Timesteps are in a column Step or TimeStep; without one,
-    rows are numbered from 0, and a warning says so. A last line without a line feed, and a last timestep with too few rows, are left
-    out with a warning, because a simulation may be writing them.
-
-    Raises FileNotFoundError if there is no such file; vtkgranular.Error with path, line and column for a word in place of a number, a row
-    of another length, a binary or empty file, and a file without rows; vtkgranular.ArgumentError for a dt that cannot be.
+    If a timestep repeats, the last row counts. A warning tells of rows without timesteps, which are numbered, and of a last line or timestep
+    that ends early. Raises vtkgranular.Error with path, line and column for a word in place of a number, and a row of another length.
     """
     expect_dt(dt)
     reader = _TableReader(os.path.abspath(os.fsdecode(path)))

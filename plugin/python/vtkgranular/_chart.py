@@ -13,12 +13,9 @@ from ._table import read_table
 def chart(path: str | os.PathLike[str], names: str | Iterable[str], dt: float | None = None, view: Any = None) -> Any:
     """Draws columns of a table or log against time, and returns their display.
 
-    path   a file that vtkgranular.read_table or read_log reads; the server of ParaView must have it under the same name
-    names  a column, or a list of columns; each row of a timestep, such as a layer, has a line of its own
-    dt     the time of one timestep, greater than 0, in the unit of the run; None: as these functions have it
-    view   a line chart view; by default a new one
-
-    The table is a source of the pipeline, which reads the file again when its Script runs again. Raises what read_table and read_log raise.
+    path, dt  a file and the time of a timestep, as for vtkgranular.read_table and read_log, whose errors it raises
+    names     a column, or a list of columns; each row of a timestep, such as a layer, has a line of its own
+    view      a line chart view; by default a new one
     """
     from paraview import simple
 

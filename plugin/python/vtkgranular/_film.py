@@ -57,9 +57,8 @@ def film(view: Any, path: str | os.PathLike[str], **properties: Any) -> list[str
     path        film.png, or another ending of pictures, for film.0000.png, film.0001.png, ...; film.avi or film.ogv for one file
     properties  of ParaView's SaveAnimation: ImageResolution, FrameRate, FrameWindow, FrameStride, ...
 
-    The frames are those of all that is shown, each once, in the order of their times. Further pictures of this name are removed.
-    Raises RuntimeError if a picture could not be made; ValueError if nothing in the view has times, or for an ending that this ParaView
-    cannot write.
+    The frames are those of all that is shown, each once, in the order of their times. Further pictures of this name are removed. Raises
+    RuntimeError if a picture could not be made; ValueError if nothing has times, or for an ending that this ParaView cannot write.
     """
     from paraview import servermanager, simple
 

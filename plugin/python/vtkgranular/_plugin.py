@@ -51,13 +51,12 @@ def _plugin_beside_package(servermanager: Any) -> str:
 def load_plugin(ns: dict[str, Any] | None = None, remote: bool = False) -> str:
     """Loads the ParaView plugin of this package and returns its path.
 
-    It is the plugin that was compiled for the version of ParaView that runs, else the portable one, which lacks some filters.
+    It is the one that was compiled for this version of ParaView, else the portable one.
 
     ns      globals() if `from paraview.simple import *` came first: the names are added there.
     remote  True: loads it on the server of a connection, where it must have the same path.
 
-    It is not needed with Debian's packages, nor where PV_PLUGIN_PATH names the plugin's folder: a loaded plugin stays, and its
-    path is returned. Raises FileNotFoundError if there is no plugin, RuntimeError if ParaView refuses to load it.
+    A loaded plugin stays, as with Debian's packages or PV_PLUGIN_PATH. Raises FileNotFoundError or RuntimeError if there is none to load.
     """
     from paraview import servermanager, simple
 

@@ -10,8 +10,7 @@ _VARIABLE = "GRANULAR_POOL_MIB"
 def pool_limit() -> int | None:
     """Returns the MiB of memory that a reader may keep for its next frame, or None for the default.
 
-    The environment variable GRANULAR_POOL_MIB holds it. The default is an eighth of the machine's memory. Raises ValueError if
-    the variable holds no whole number of at least 0.
+    The environment variable GRANULAR_POOL_MIB holds it. Raises ValueError if it holds no whole number of at least 0.
     """
     text = os.environ.get(_VARIABLE)
     if not text:

@@ -64,9 +64,7 @@ def _find_reader(names: list[str], column_map: Any) -> str:
 
 def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: float | None = None,
            **properties: Any) -> Any:
-    """Returns the ParaView reader that fits a file, updated to its frames and arrays.
-
-    The first reader with times sets the animation: it plays these times, and SaveAnimation writes a picture for each.
+    """Returns the ParaView reader that fits a file, updated to its frames and arrays. The first reader sets the times of the animation.
 
     paths       a file, a pattern as the `dump` command has it (see vtkgranular.files), or a list of these: the files of one
                 run. Particle dumps, contacts and bonds, restart files, data files, decompositions, Euler cells, and particles in
@@ -74,9 +72,8 @@ def reader(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt:
     dt          the time of one timestep, greater than 0, in the unit of the run. None: timesteps, unless the files hold times
     properties  of the reader's proxy: ColumnNames, Stride, RegionOfInterest, PointArrayStatus, ...
 
-    The plugin must be loaded: see vtkgranular.load_plugin. Raises FileNotFoundError if there is no such file, AttributeError for
-    a property that there is not, ValueError for a name that is not UTF-8, and RuntimeError with the file's message, which names
-    path, line or byte, and column, if the file cannot be read.
+    The plugin must be loaded: see vtkgranular.load_plugin. Raises FileNotFoundError, AttributeError for a property that there is not,
+    ValueError for a name that is not UTF-8, and RuntimeError with the file's message, which names path, line or byte, and column.
     """
     from paraview import servermanager, simple
 

@@ -300,8 +300,7 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 cells          .euler, .vtk
                 .csv is a table with all digits, as vtkgranular.write has it, written where the script runs. WriteTimeSteps=1 puts all
                 frames into it, or with `*` in the name into a file each; Columns chooses columns.
-                All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf, .tsv, .stl and .ply, go to
-                ParaView's writers. VTK's XML gets inline data, as with DataMode Binary, which all versions of libexpat read.
+                All other endings that ParaView knows for the data, as .vtp, .vti, .vtu, .vtkhdf and .stl, go to its writers.
                 Text dumps are compressed if .gz or .zst follows. In the names of tables and of this plugin's formats `*` stands for
                 the timestep, and in those of dumps `%` for the rank.
     time        the time to write, as for vtkgranular.update
@@ -309,9 +308,8 @@ def save(proxy: Any, path: str | os.PathLike[str], time: float | None = None, wr
                 files of any name. None: see path.
     properties  of the writer's proxy: WriteTimeSteps, Dialect, Style, Label, Columns, NumberFormat, ...
 
-    Files are written under a temporary name and renamed when all are complete; after an error the old ones are untouched. On a
-    pvserver, ParaView's own writers write in place. A file that is read is replaced after the last frame, and only in a format of
-    this plugin.
+    Files are written under a temporary name and renamed when all are complete; after an error the old ones are untouched. On a pvserver,
+    ParaView's own writers write in place. A file that is read is replaced after the last frame, and only in a format of this plugin.
 
     Raises ValueError for a name that is not UTF-8, and for an ending that no writer has for such data; AttributeError for a property,
     or a writer, that there is not; RuntimeError with the message if the file could not be written.

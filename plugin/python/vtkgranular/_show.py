@@ -169,16 +169,14 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
             through them, subdomains and contacts are shown as surfaces and lines, coloured by cells or points.
     view    a render view; by default the active one, or a new one.
     radius  name of the point array with the radii, in the unit of the points, or one number for all.
-            Ellipsoids and superquadrics have the sizes of their own arrays instead. Where there is no such array, and where the points
-            are scaled coordinates, spheres of half the mean distance of the points are shown.
-    color   name of an array to colour by, of spheres a point array; by default as ParaView decides. "type" gives each type a colour and a
-            name of its own.
+            Ellipsoids and superquadrics have the sizes of their own arrays. Without such an array, and for scaled coordinates,
+            spheres of half the mean distance of the points are shown.
+    color   name of an array to colour by, of spheres a point array; by default as ParaView decides. "type": a colour and a name each.
     box     True: shows the simulation box, the output Box of the reader or source, as well.
     bonds   True: shows the bonds, its output Bonds, as lines.
     legend  True: shows the colour bar of `color`, or the names of the types.
 
-    The spheres are drawn with exactly these radii, by the plugin's representation Grains, and are the same on any number of
-    ranks. Each pixel has the depth and the light of the surface that is seen there. Colours of numbers span the values of the frame
+    The spheres are drawn with exactly these radii, by the plugin's representation Grains. Colours of numbers span the values of the frame
     shown now or, if that has no particles, of the last frame. Raises RuntimeError if the plugin was not loaded before, or if there is
     no display to draw on; ValueError if there is no array `color`, or no output for box or bonds.
     """

@@ -37,23 +37,14 @@ def show_run(folder: str | os.PathLike[str] | None = None, dt: float | None = No
              legend: bool = True) -> dict[str, Any]:
     """Shows the particles of a run with their box, walls and contacts, and returns the displays by the names of the series.
 
-    folder    the folder, with the files that vtkgranular.open(folder) lists; None: that of the files of the active source, which is hidden,
-              and its times are left out
-    dt        the time of one timestep, greater than 0, in the unit of the run; None: as a log in the folder or in the one above tells it
-    view      a render view; by default the active one, or a new one
+    folder    as for vtkgranular.open; None: that of the files of the active source, which is hidden, and whose times are left out
+    dt        the time of one timestep; None: as a log in the folder or in the one above tells it, and a remark says so
     color     name of the array to colour particles by; by default their velocities, or their types
-    walls     True: those that move with the particles, see vtkgranular.open; or names of series; False: none
-    contacts  True: the contacts or bonds with most timesteps, as lines through translucent particles, joined with the particles where their
-              files have no places; or names of series; False: none
-    box       True: the simulation box as lines
-    legend    True: the colour bar
+    walls     True: those that move with the particles; or names of series, such as "walls_*.vtk"; False: none
+    contacts  True: the contacts or bonds with most timesteps, as lines through translucent particles; or names of series
 
-    The names are those of the files, such as "dump_*.liggghts". The animation plays the times of the particles, and is at the last one.
-    Where walls or contacts lack one of these, the file before is shown, and a remark names the series; another one tells where dt is
-    from. The portable plugin has no readers of VTK and STL files, and a remark names the series that it leaves out.
-
-    Raises FileNotFoundError if there is no such folder, ValueError if it has nothing to show or no such series, and what
-    vtkgranular.reader and show raise.
+    The animation plays the times of the particles, and is at the last one. A remark names walls and contacts that lack one of these: the
+    file before is shown. Raises ValueError if there is nothing to show, and what vtkgranular.reader and show raise.
     """
     from paraview import servermanager, simple
 

@@ -28,9 +28,8 @@ def load_state(path: str | os.PathLike[str]) -> None:
 
     State files name their data by absolute paths. A data file that is no longer there is looked for below the folder of the
     state file, by the longest end of its path: for /old/run/post/a.dump and a state in /new/run that is
-    /new/run/post/a.dump. The state file itself stays as it is. For states of this machine, not of a server.
-
-    Raises FileNotFoundError if the state, or a file that its readers name, is not found.
+    /new/run/post/a.dump. The state file itself stays as it is. For states of this machine, not of a server. Raises FileNotFoundError if
+    the state, or a file that its readers name, is not found.
     """
     from paraview import simple
 

@@ -16,9 +16,7 @@ def _version() -> tuple[int, int]:
 def preset(name: str) -> str:
     """Returns the name by which this ParaView knows a colour preset, for ApplyPreset.
 
-    name  the preset's name in any version: "Plasma" and "Plasma (matplotlib)" are the same.
-
-    Raises ValueError if this ParaView has no such preset.
+    name  in any version: "Plasma" and "Plasma (matplotlib)" are the same. Raises ValueError if this ParaView has no such preset.
     """
     from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionPresets as Presets
 
@@ -34,9 +32,7 @@ def preset(name: str) -> str:
 def label_format(text: str) -> dict[str, Any]:
     """Returns the properties that make a colour bar write its numbers in a format, for set_properties.
 
-    text  the format as printf has it, with one conversion of e, f or g: "%.1f", "%g m". ParaView 6.1 wants std::format's "{:.1f}".
-
-    Raises ValueError if the text has not exactly one such conversion.
+    text  the format as printf has it: "%.1f", "%g m". Raises ValueError if it has not exactly one conversion of e, f or g.
     """
     parts = re.fullmatch(r"([^%{}]*)%([+]?)([0-9]*(?:\.[0-9]+)?)([efgEFG])([^%{}]*)", text)
     if not parts:
@@ -49,9 +45,7 @@ def label_format(text: str) -> dict[str, Any]:
 def process_ids(source: Any) -> tuple[Any, str]:
     """Returns a filter that says for each point which process has it, and the name of its array.
 
-    source  a source or filter of paraview.simple.
-
-    The filter is ProcessIds, or ProcessIdScalars before ParaView 5.12; the array holds the ranks 0, 1, ...
+    source  a source or filter of paraview.simple. The array holds the ranks 0, 1, ...
     """
     from paraview import simple
 
