@@ -52,15 +52,13 @@ class Series:
         if self.kind in _IN_PARAVIEW:
             self.steps = sorted({*steps}) if self.kind != "other" else []
             return
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # who opens the files is told
-            try:
-                opened = self.open([sample])
-                self.columns = [column if isinstance(column, str) else column.name for column in opened.columns]
-                is_named = len(files) > 1 and opened.steps.tolist() == [steps[self.files.index(sample)]]
-                self.steps = sorted({*steps}) if is_named else (self.open() if len(files) > 1 else opened).steps.tolist()
-            except (c.Error, OSError) as error:
-                self.about = str(error)
+        try:
+            opened = self.open([sample])
+            self.columns = [column if isinstance(column, str) else column.name for column in opened.columns]
+            is_named = len(files) > 1 and opened.steps.tolist() == [steps[self.files.index(sample)]]
+            self.steps = sorted({*steps}) if is_named else (self.open() if len(files) > 1 else opened).steps.tolist()
+        except (c.Error, OSError) as error:
+            self.about = str(error)
         if self.kind == "table" and self.columns[:1] == ["1"] and not self.about:
             self.kind, self.steps, self.columns = "other", [], []  # numbers without a title may be anything
 
@@ -167,6 +165,16 @@ class Folder(Mapping[str, Series]):
     def __init__(self, path: str, dt: float | None = None):
         expect_dt(dt)
         self.path, self.dt, self.dt_path, self._given = os.path.abspath(path), dt, "", path
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # who opens the files is told
+            self._find_series()
+            if dt is None:
+                self._find_dt()
+        self.particles = self.best("dump", "particles")
+        self.walls = self._walls()
+        self.remarks = [text for each in self.of("local", "contacts", "walls") for text in [self._lack(each)] if text]
+
+    def _find_series(self) -> None:
         sizes = {entry.name: entry.stat().st_size for entry in os.scandir(self.path) if entry.is_file() and entry.name[0] != "."}
         self._boxes = {re.sub(r"_?boundingBox", "", _stem(name)): name for name in sizes if "boundingBox" in name}
         wholes = {_stem(name) for name in sizes if _ending(name).startswith(".pv")}  # whose pieces have one number more
@@ -180,23 +188,16 @@ class Folder(Mapping[str, Series]):
                 is_one = found.kind not in ("table", "log", "other")  # each table is one of its own
                 self._series += [found] if is_one else [Series(each, [file], [], has_box) for each, file in zip(names, files)]
         self._series.sort(key=lambda each: (KINDS.index(each.kind), each.name))
-        if dt is None:
-            self._find_dt()
-        self.particles = self.best("dump", "particles")
-        self.walls = self._walls()
-        self.remarks = [text for each in self.of("local", "contacts", "walls") for text in [self._lack(each)] if text]
 
     def _find_dt(self) -> None:
         """Takes the time of a timestep from a log in the folder or the one above, the newest first, if it has one alone."""
         above = glob.glob(os.path.join(glob.escape(os.path.dirname(self.path)), "*"))
         beside = [path for path in above if "log" in os.path.basename(path).lower().split(".") and os.path.isfile(path)]
         for path in sorted([*(each.files[-1] for each in self.of("log")), *beside], key=os.path.getmtime, reverse=True):
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                try:
-                    sizes = {run.dt for run in read_log(path)._runs if run.dt}
-                except (c.Error, OSError):
-                    continue  # of another program
+            try:
+                sizes = {run.dt for run in read_log(path)._runs if run.dt}
+            except (c.Error, OSError):
+                continue  # of another program
             if len(sizes) == 1:
                 self.dt, self.dt_path = sizes.pop(), path
                 return

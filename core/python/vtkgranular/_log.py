@@ -77,7 +77,7 @@ class LogTable:
         for name, values in (("time", self.times), *((name, self[name]) for name in self)):
             for own, column in zip(row_names(name, values), values.T if values.ndim > 1 else [values]):
                 made = numpy_to_vtk(column.copy(), deep=True)
-                made.SetName(own)
+                made.SetName(own.encode(errors="replace").decode())
                 table.AddColumn(made)
         return table
 

@@ -98,6 +98,8 @@ class _TableReader(Lines):
         """A line of YAML that says nothing of the table."""
 
     def _on_block(self, text: bytes) -> None:
+        if self.counts and not self.heads:
+            self.fail(f"expected a row as before, got the timestep {os.fsdecode(text)}", self.number)
         self.heads.append(len(self.counts))
         self._add([float(text)])
 
@@ -112,7 +114,7 @@ class _TableReader(Lines):
             self._name(names)
             return
         at = next((i for i, word in enumerate(words) if not _numbers([word])), 0)
-        self.fail(f"column {at + 1}: expected a number, got {os.fsdecode(words[at])!r}", self.number, str(at + 1))
+        self.fail(f"column {at + 1}: expected a number, got {os.fsdecode(words[at] if words else text)!r}", self.number, str(at + 1))
 
     def _name(self, names: list[str]) -> None:
         if self.counts and names != self.names:
