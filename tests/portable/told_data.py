@@ -23,7 +23,9 @@ def of_array(array):
 def of_cells(cells):
     if cells is None:
         return None
-    return [cells.GetNumberOfCells(), *(of_array(each)[4:] + [each.GetClassName()] for each in (cells.GetOffsetsArray(), cells.GetConnectivityArray()))]
+    # by their types: cells that VTK 9.6 fills have arrays of a template, which Python cannot make
+    return [cells.GetNumberOfCells(), *(of_array(each)[4:] + [each.GetDataTypeAsString()] for each in
+                                        (cells.GetOffsetsArray(), cells.GetConnectivityArray()))]
 
 
 def of_fields(data):
