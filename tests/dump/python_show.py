@@ -195,9 +195,11 @@ good = os.path.join(os.environ["GRANULAR_DATA"], "good")
 contacts = vg.reader(os.path.join(good, "local", "contacts.dump"), Preset="ContactsForce")
 cells = GranularEulerAverage(Input=vg.reader(os.path.join(good, "grains.dump")))
 for source, name in ((cells, "volumefraction"), (Threshold(Input=cells, Scalars=["CELLS", "volumefraction"]), "volumefraction"),
-                     (GranularDecomposition(Input=packing), "nlocal"), (contacts, "force")):
+                     (GranularDecomposition(Input=packing), "nlocal"), (contacts, "force"),
+                     (GranularTrajectories(Input=cells.Input), "speed")):
     display = vg.show(source, view, color=name, box=True)
-    assert display.Representation != "Grains" and display.ColorArrayName[:2] == ["CELLS", name], (display.Representation, name)
+    kind = "POINTS" if name == "speed" else "CELLS"
+    assert display.Representation != "Grains" and display.ColorArrayName[:2] == [kind, name], (display.Representation, name)
 
 # a legend, and none unless wanted
 typed = vg.reader("typed.dump")

@@ -63,12 +63,14 @@ def _frame_with(found: Callable[[], Any], source: Any, view: Any) -> Iterator[An
             source.UpdatePipeline(view.ViewTime)
 
 
-def _is_mesh(source: Any, view: Any) -> bool:
-    """True for walls, and for cells, subdomains and lines, whose arrays are all at the cells, as are those of slices through cells."""
-    if any(each.GetXMLName() == "GranularMeshReader" for each in upstream(source)):
+def _is_mesh(source: Any, view: Any, color: str | None) -> bool:
+    """True for walls and paths, and where all arrays or that of the colour are at cells, subdomains and lines, or at slices and tubes
+    of these."""
+    if any(each.GetXMLName() in ("GranularMeshReader", "GranularTrajectories") for each in upstream(source)):
         return True
     with _frame_with(lambda: source.PointData.keys() or source.CellData.keys(), source, view):
-        return bool(source.CellData.keys()) and not source.PointData.keys()
+        points, cells = set(source.PointData.keys()), set(source.CellData.keys())
+        return bool(cells) and not points or color in cells - points
 
 
 def _range_of(source: Any, name: str, view: Any, kinds: Sequence[str] = ("POINTS",)) -> tuple[str, tuple[float, float] | None]:
@@ -165,8 +167,8 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
          bonds: bool = False, legend: bool = False) -> Any:
     """Shows particles as spheres and returns their display.
 
-    reader  a GranularDumpReader, or any source or filter whose first output has points. Walls of a GranularMeshReader, and cells, slices
-            through them, subdomains and contacts are shown as surfaces and lines, coloured by cells or points.
+    reader  a GranularDumpReader, or any source or filter whose first output has points. Walls, paths, cells, subdomains, contacts, and
+            slices and tubes of these are shown as surfaces and lines, coloured by cells or points.
     view    a render view; by default the active one, or a new one.
     radius  name of the point array with the radii, in the unit of the points, or one number for all.
             Ellipsoids and superquadrics have the sizes of their own arrays. Without such an array, and for scaled coordinates,
@@ -185,7 +187,7 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     view = view or simple.GetActiveViewOrCreate("RenderView")
     expect_display(view)
     display = simple.Show(reader, view)  # which updates the arrays, too
-    if _is_mesh(reader, view):
+    if _is_mesh(reader, view, color):
         if display.Representation in ("Outline", "Grains"):  # of images, and of frames without lines
             display.SetRepresentationType("Surface")
         if color is not None:
