@@ -163,6 +163,16 @@ def _show_particles(reader: Any, view: Any, display: Any, radius: str | float, c
         _colour(display, reader, view, color, ["POINTS"])
 
 
+def _expect_places(source: Any) -> None:
+    """Raises ValueError for contacts whose file says which particles touch, but not where: nothing would be seen."""
+    outputs = output_names(source)
+    if source.GetXMLName() == "GranularLocalReader" and "Rows" in outputs and not source.GetDataInformation().GetNumberOfPoints():
+        rows = source.GetDataInformation(outputs.index("Rows"))
+        if rows.GetNumberOfRows():
+            raise ValueError("expected contacts with positions, got rows without: GranularLocalJoin draws them between particles, with "
+                             "Lines=OutputPort(contacts, 1)")
+
+
 def show(reader: Any, view: Any = None, radius: str | float = "radius", color: str | None = None, box: bool = False,
          bonds: bool = False, legend: bool = False) -> Any:
     """Shows particles as spheres and returns their display.
@@ -187,13 +197,18 @@ def show(reader: Any, view: Any = None, radius: str | float = "radius", color: s
     view = view or simple.GetActiveViewOrCreate("RenderView")
     expect_display(view)
     display = simple.Show(reader, view)  # which updates the arrays, too
-    if _is_mesh(reader, view, color):
-        if display.Representation in ("Outline", "Grains"):  # of images, and of frames without lines
-            display.SetRepresentationType("Surface")
-        if color is not None:
-            _colour(display, reader, view, color, ["CELLS", "POINTS"])
-    else:
-        _show_particles(reader, view, display, radius, color)
+    try:
+        _expect_places(reader)
+        if _is_mesh(reader, view, color):
+            if display.Representation in ("Outline", "Grains"):  # of images, and of frames without lines
+                display.SetRepresentationType("Surface")
+            if color is not None:
+                _colour(display, reader, view, color, ["CELLS", "POINTS"])
+        else:
+            _show_particles(reader, view, display, radius, color)
+    except ValueError:
+        simple.Hide(reader, view)
+        raise
     if box:
         _show_output(reader, "Box", view)
     if bonds:
