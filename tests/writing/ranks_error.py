@@ -2,6 +2,7 @@
 """What goes wrong on one rank alone: an error that names it, the old file as it was, and no rank that waits.
 
 The arguments name the systems whose writers these are."""
+import gc
 import os
 import sys
 
@@ -51,6 +52,9 @@ def check(source, faults, forms):
     for form in forms:
         for proxy, name in [*faults, (source, "gone/" + old)]:
             check_refused(proxy, os.path.abspath(name), **form)
+        # a proxy that an error keeps is deleted by the next that collects garbage, as ParaView's filters in Python do while all ranks update
+        kept = {type(each).__name__ for each in gc.get_objects() if isinstance(each, servermanager.Proxy)}
+        assert not [name for name in kept if name.endswith("Writer")], kept
         vg.save(source, os.path.abspath(new), **form)
         os.remove(new)
 
