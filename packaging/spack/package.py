@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A recipe of spack: copy this file to packages/vtk-granular of a repository of yours, then `spack install vtk-granular`.
 
-Not tried: spack and its mirrors could not be reached where this was written. There is no address of a release yet: `spack dev-build
-vtk-granular@0.1.0` builds a tree that you have."""
+Not tried. There is no address of a release yet: `spack dev-build vtk-granular@0.1.0` builds a tree that you have."""
 from spack.package import *
 
 
