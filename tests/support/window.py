@@ -45,7 +45,8 @@ class Window:
         self.event("FileOpenDialog", "filesSelected", path)
 
     def choose(self, menu, name):
-        """Adds the choice of a source or filter in the menu Sources or Filters."""
+        """Adds the choice of a source or filter in the menu Sources or Filters, which is opened: what can be chosen is found out then."""
+        self.event("menubar", "activate", f"menu{menu}")
         self.event(f"menubar/menu{menu}/pqProxyGroupMenuManager0/{name}", "activate")
 
     def select_input(self, name, place):
