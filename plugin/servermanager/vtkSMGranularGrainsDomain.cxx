@@ -38,8 +38,8 @@ bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
     std::ranges::find(ParticleFilters, name) != std::end(ParticleFilters);
 }
 
-// Returns the representation that the hints of one of our own sources name for an output.
-std::string FindHint(vtkSMProxy* source, int port)
+// Returns the representation that the hints of one of our own sources name for an output; only images have a volume.
+std::string FindHint(vtkSMSourceProxy* source, int port)
 {
   const std::string name = source->GetXMLName() ? source->GetXMLName() : "";
   vtkPVXMLElement* hints = name.starts_with("Granular") ? source->GetHints() : nullptr;
@@ -50,7 +50,9 @@ std::string FindHint(vtkSMProxy* source, int port)
     hint->GetScalarAttribute("port", &of);
     if (of == port && std::string(hint->GetName()) == "RepresentationType")
     {
-      return hint->GetAttributeOrEmpty("type");
+      const std::string type = hint->GetAttributeOrEmpty("type");
+      const bool image = source->GetDataInformation(port)->DataSetTypeIsA("vtkImageData");
+      return type == "Volume" && !image ? "Surface" : type;
     }
   }
   return {};
@@ -85,12 +87,13 @@ bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
     auto* source = vtkSMSourceProxy::SafeDownCast(helper.GetAsProxy(0));
     const unsigned int port = helper.GetOutputPort(0);
     vtkPVDataInformation* data = source ? source->GetDataInformation(port) : nullptr;
-    if (!data || (data->GetNumberOfPoints() > 0 && !AreOurs(data)))
+    const bool cells = source && std::string(source->GetXMLName()) == "GranularEulerAverage";
+    if (!data || cells || (data->GetNumberOfPoints() > 0 && !AreOurs(data)))
     {
       return false;
     }
-    const vtkTypeInt64 cells = data->GetNumberOfCells(); // a vertex of each point, or none
-    if (cells > 0 ? cells != data->GetNumberOfPoints() : !KeepsParticles(source, port))
+    const vtkTypeInt64 vertices = data->GetNumberOfCells(); // one of each point, or none
+    if (vertices > 0 ? vertices != data->GetNumberOfPoints() : !KeepsParticles(source, port))
     {
       return false;
     }
@@ -106,7 +109,8 @@ int vtkSMGranularGrainsDomain::SetDefaultValues(vtkSMProperty* property, bool)
 {
   vtkSMProxy* display = property->GetParent();
   vtkSMProperty* input = this->GetRequiredProperty("Input");
-  vtkSMProxy* shown = input ? vtkSMPropertyHelper(input).GetAsProxy(0) : nullptr;
+  auto* const shown =
+    input ? vtkSMSourceProxy::SafeDownCast(vtkSMPropertyHelper(input).GetAsProxy(0)) : nullptr;
   if (display && shown && display->GetProperty("Representation"))
   {
     const bool particles = IsParticlesFromTheReaderOn(input);

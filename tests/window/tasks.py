@@ -20,7 +20,7 @@ TASKS = [
     ("filter Clip", {"RenderView": ["Wireframe", "Grains"]}),
     ("new; open paths/walk.dump.gz; filter GranularTrajectories", {"RenderView": ["Wireframe", "Surface by speed"]}),
     ("new; open paths/walk.dump.gz; filter GranularHistory", {"RenderView": ["Grains", "Wireframe"], "XYChartView": ["time: 10 series"]}),
-    ("new; open local/settled_grains.dump.gz; filter GranularEulerAverage", {"RenderView": ["Wireframe", "Surface by volumefraction"]}),
+    ("new; open local/settled_grains.dump.gz; filter GranularEulerAverage", {"RenderView": ["Wireframe", "Volume by volumefraction"]}),
     ("new; open local/settled_grains.dump.gz; filter GranularProfile",
      {"RenderView": ["Grains", "Wireframe"], "XYChartView": ["volumefraction: position"]}),
     ("new; open local/settled_contacts.dump.gz; open local/settled_grains.dump.gz; filter GranularContactSums Lines /0:0/0:0/0:0",
