@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import mmap
 from typing import Any, Iterable
 
@@ -40,11 +41,16 @@ def _fill(made: Any, values: Any) -> None:
         memory[:] = numpy.ascontiguousarray(values).reshape(-1)
 
 
+@functools.cache
+def _system() -> ctypes.CDLL:
+    return ctypes.CDLL(None)  # which takes milliseconds
+
+
 def _ask_for_large_pages(memory: Any) -> None:
     """Asks Linux for large pages behind memory that was not used yet: to get small ones takes three times as long as to fill them."""
     begin, end = -(-memory.ctypes.data // mmap.PAGESIZE) * mmap.PAGESIZE, memory.ctypes.data + memory.nbytes
     if memory.nbytes >= 2**22 and hasattr(mmap, "MADV_HUGEPAGE"):
-        ctypes.CDLL(None).madvise(ctypes.c_void_p(begin), ctypes.c_size_t(end - begin), mmap.MADV_HUGEPAGE)  # a wish: no matter if it fails
+        _system().madvise(ctypes.c_void_p(begin), ctypes.c_size_t(end - begin), mmap.MADV_HUGEPAGE)  # a wish: no matter if it fails
 
 
 def texts(name: str, values: Iterable[str]) -> Any:
