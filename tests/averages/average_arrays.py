@@ -128,7 +128,7 @@ layers.SetController(None)
 for port in range(3):
     layers.SetInputConnection(port, profile.filter.GetInputConnection(port, 0))
 layers.SetWeights(CENTRE)
-for setting, value, count in (("Layers", 77, 77), ("Thickness", 0.01, 9), ("Thickness", 0, 77), ("Layers", 9, 9)):
+for setting, value, count in (("Layers", 20000, 20000), ("Layers", 77, 77), ("Thickness", 0.01, 9), ("Thickness", 0, 77), ("Layers", 9, 9)):
     getattr(layers, f"Set{setting}")(value)
     layers.UpdateTimeStep(70000)
     assert layers.GetOutputDataObject(0).GetNumberOfRows() == count

@@ -87,6 +87,7 @@ assert len(pieces.files) == 20 and len(vg.open(pieces.files)) == len(pieces) == 
 
 # parts of a frame: what numpy takes from the whole
 whole = vg.open(SOURCE)[4]
+assert vg.open(SOURCE).read(4, region=[None, None, (0, 0)]).rows == 0  # a plane, not all
 part = vg.open(SOURCE).read(4, columns=["id", "v"], stride=7, region=[(0, 0.03), None, (None, 0.02)])
 keep = (whole["id"] % 7 == 0) & (whole.points[:, 0] >= 0) & (whole.points[:, 0] <= 0.03) & (whole.points[:, 2] <= 0.02)
 assert 0 < keep.sum() < 200 and list(part) == ["id", "v"]

@@ -100,6 +100,7 @@ MADE = (  # text, timesteps, a column and its values, warnings
     (HEAD + "---\nkeywords: ['c_a', ]\ndata:\n  100:\n  - [1.5, ]\n  - [2, ]\n  200:\n  - [3, ]\n  - [4, ]\n",
      [100, 200], "c_a", [[1.5, 2], [3, 4]]),
     (HEAD + "10 1\n1 5\n20 2\n1 7\n", [10], "v", [[5]], "made.txt:6: the last timestep ends early"),
+    (HEAD + "10 0\n20 0\n", [10, 20], "Number-of-rows", [0, 0]),
     ("# t\n# Step v\n10 1\n20 2", [10], "v", [1], "made.txt:4: the last line ends early"))
 for text, steps, column, values, *told in MADE:
     table = read(written(text), *told)

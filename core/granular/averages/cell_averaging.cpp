@@ -45,6 +45,14 @@ EulerGrid ChosenCells::make_grid(
     }
     request.cutoff = relative_size * 2 * largest;
   }
+  for (std::size_t axis = 0; profile && axis < 3;
+       ++axis) // one cell along the others, which so have no limits
+  {
+    const double length = request.hi[axis] - request.lo[axis];
+    const bool other = axis != static_cast<std::size_t>(*profile);
+    request.counts[axis] = other ? 1 : request.counts[axis];
+    request.size[axis] = other && length > 0 ? length : request.size[axis];
+  }
   EulerGrid made = make_euler_grid(request);
   for (int axis = 0; profile && axis < 3; ++axis)
   {

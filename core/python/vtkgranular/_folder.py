@@ -43,7 +43,7 @@ class Series:
 
     def __init__(self, name: str, files: list[tuple[str, int]], steps: list[int], has_box: bool):
         self.name, self.files, self.bytes = name, [path for path, _ in files], sum(size for _, size in files)
-        self.about, self.columns, self.steps = "", [], []
+        self.about, self.columns, self.steps, self._is_guess = "", [], [], False
         sample = max(files, key=lambda file: file[1])[0]  # the first one may be empty
         try:
             self.kind = kind_of(sample) or self._kind(sample, has_box)
@@ -59,8 +59,8 @@ class Series:
             self.steps = sorted({*steps}) if is_named else (self.open() if len(files) > 1 else opened).steps.tolist()
         except (c.Error, OSError) as error:
             self.about = str(error)
-        if self.kind == "table" and self.columns[:1] == ["1"] and not self.about:
-            self.kind, self.steps, self.columns = "other", [], []  # numbers without a title may be anything
+        if self.kind == "table" and (self.columns[:1] == ["1"] or self._is_guess and self.about):
+            self.kind, self.about, self.steps, self.columns = "other", "", [], []  # numbers without a title may be anything
 
     def _kind(self, path: str, has_box: bool) -> str:
         """Finds what a file is that the library does not know."""
@@ -77,7 +77,7 @@ class Series:
             if word in self.about:
                 self.about = self.about.split(": ")[0]
                 return kind
-        self.about = ""
+        self.about, self._is_guess = "", True
         return "table" if self.bytes < _LONGEST_HEAD else "other"  # which may have any title
 
     def open(self, files: list[str] | None = None, dt: float | None = None) -> Any:

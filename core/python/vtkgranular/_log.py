@@ -74,7 +74,7 @@ class LogTable:
         from vtkmodules.vtkCommonDataModel import vtkTable
 
         table = vtkTable()
-        for name, values in (("time", self.times), *((name, self[name]) for name in self)):
+        for name, values in (("time", self.times), *((name, self[name]) for name in self if name != "time")):
             for own, column in zip(row_names(name, values), values.T if values.ndim > 1 else [values]):
                 made = numpy_to_vtk(column.copy(), deep=True)
                 made.SetName(own.encode(errors="replace").decode())

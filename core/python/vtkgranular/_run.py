@@ -956,7 +956,7 @@ def _region(given: Any) -> list[float]:
         least, most = -float("inf") if lo is None else float(lo), float("inf") if hi is None else float(hi)
         if not least <= most:
             raise c.ArgumentError(f"expected bounds of a region in their order, got {lo} and {hi}")
-        made += [least, most]
+        made += [least, most] if least or most else [-5e-324, 5e-324]  # 0 0 would be no bounds
     return made
 
 

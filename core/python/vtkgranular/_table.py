@@ -54,7 +54,7 @@ class Table(LogTable):
         import numpy
         import pandas
 
-        rows = max(1, *(each.shape[1] for each in self._arrays.values() if each.ndim > 1), 1)
+        rows = next((each.shape[1] for each in self._arrays.values() if each.ndim > 1), 1)
         return pandas.DataFrame({name: each.ravel() if each.ndim > 1 else numpy.repeat(each, rows) for name, each in self._arrays.items()})
 
 
@@ -159,7 +159,7 @@ class _TableReader(Lines):
             self.fail(f"expected a row of {count} numbers, got {counts[wrong[0]]}", self.lines[wrong[0]])
         numbered = [first, *map(str, range(2, count + 1))][:count]
         names = next((way for way in ways if len(way) == count and " ".join(way[:5]) != _FIX_PRINT), numbered)
-        return names, numpy.array(self.values[:counts.sum()])[numpy.repeat(is_row, counts)].reshape(-1, count)
+        return names, numpy.array(self.values[:counts.sum()])[numpy.repeat(is_row, counts)].reshape(len(lines), count)
 
     def table(self, dt: float | None) -> Table:
         """Returns the table of what was read."""

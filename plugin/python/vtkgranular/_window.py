@@ -2,17 +2,24 @@
 """Shows a frame in ParaView's window, which runs this file for `granular show --window`: it passes no arguments to a script."""
 import json
 import os
+import sys
 
 from paraview import simple
 
-import vtkgranular
-
 
 def fill(given: dict) -> None:
-    """Shows particles and their box, or what the reader has. given: color, and files, options and frame; or folder and dt."""
+    """Shows particles and their box, or what the reader has.
+
+    given: color; files, options and frame, or folder, dt and time; package, the folder with this package, which comes behind all others:
+    what lies beside it may be of another Python.
+    """
+    sys.path.append(given["package"])
+    import vtkgranular
+
     vtkgranular.load_plugin()
     if "folder" in given:
         vtkgranular.show_run(given["folder"], dt=given["dt"], color=given["color"])
+        simple.GetAnimationScene().AnimationTime = given["time"]
         return
     run = vtkgranular.open(given["files"], **given["options"])
     reader = run.reader()
@@ -30,4 +37,5 @@ def fill(given: dict) -> None:
 
 
 if __name__ == "__main__" and "GRANULAR_WINDOW" in os.environ:
-    fill(json.loads(os.environ["GRANULAR_WINDOW"]))
+    with open(os.environ["GRANULAR_WINDOW"]) as file:
+        fill(json.load(file))

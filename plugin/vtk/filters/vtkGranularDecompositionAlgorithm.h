@@ -39,8 +39,8 @@ public:
   ///@{
   /**
    * Sets the box that is divided, xlo xhi ylo yhi zlo zhi, in the simulation's unit of length. For the source: finite, lo
-   * <= hi, (0, 1, 0, 1, 0, 1) by default. For the filter: an axis with lo > hi uses the box in the field data of the
-   * input; (1, -1, 1, -1, 1, -1) by default.
+   * <= hi, (0, 1, 0, 1, 0, 1) by default. For the filter: an axis of 0 0, or with lo > hi, uses the box in the field data of
+   * the input; (1, -1, 1, -1, 1, -1) by default.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);

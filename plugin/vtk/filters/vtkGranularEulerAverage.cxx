@@ -94,8 +94,14 @@ public:
 private:
   void Execute() override
   {
+    const granular::ChosenCells cells = DescribeCells(*this->Self);
+    if (this->Self->OutputType == IMAGE_DATA && this->Self->Counts[0] == 0 && cells.need_frame())
+    {
+      throw granular::Error( // from a pipeline that goes on after RequestInformation failed
+        "expected the number of cells of the image, got an error: see the messages before");
+    }
     granular::CellAveraging averaging(this->Choose(this->Self->Weights, this->Self->StressArray),
-      DescribeCells(*this->Self), this->Group, this->Notices);
+      cells, this->Group, this->Notices);
     if (this->Self->TimeAverage)
     {
       this->AddFrames(averaging);
@@ -256,11 +262,6 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
 void vtkGranularEulerAverage::Execute(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (this->OutputType == IMAGE_DATA && this->Counts[0] == 0)
-  {
-    // a pipeline that goes on after RequestInformation failed
-    this->Counts = Task::FindImage(this, this->Ranks->Get()).counts;
-  }
   Task(this, request, inputVector, outputVector).Run();
 }
 

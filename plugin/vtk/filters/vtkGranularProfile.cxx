@@ -9,6 +9,7 @@ vtkStandardNewMacro(vtkGranularProfile);
 vtkGranularProfile::vtkGranularProfile()
 {
   this->SetOutputType(PROFILE);
+  this->SetLayers(20);
 }
 
 //------------------------------------------------------------------------------

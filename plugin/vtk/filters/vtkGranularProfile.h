@@ -20,7 +20,7 @@ public:
   vtkTypeMacro(vtkGranularProfile, vtkGranularEulerAverage);
 
   /**
-   * Sets the number of layers: CellCounts, and CellsBy COUNTS. 10 by default.
+   * Sets the number of layers, which counts while the thickness is 0: CellCounts. 20 by default.
    */
   void SetLayers(int layers);
 

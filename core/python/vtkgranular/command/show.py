@@ -9,6 +9,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from typing import Any
 
 from .._folder import Folder
@@ -60,10 +61,10 @@ def _find(arguments: argparse.Namespace, folder: Folder | None) -> tuple[dict[st
     if folder and not particles:
         raise ValueError(f"{folder.path}: expected particles, got {', '.join(folder) or 'no files'}")
     if particles and particles.kind == "particles":  # in VTK files
-        step = _one(particles.steps, arguments)[0]
-        number = particles.steps.index(step)
-        files = particles.files_at(step)
-        return {"files": files, "boxes": folder.box_of(files[0]), "frame": None}, {"frame": number, "step": step, "time": particles.times(folder.dt)[number]}
+        step = _one(particles.steps or [0], arguments)[0]  # one file without a number
+        number = particles.steps.index(step) if particles.steps else 0
+        files, times = particles.files_at(step), particles.times(folder.dt) or [0.0]
+        return {"files": files, "boxes": folder.box_of(files[0]), "frame": None}, {"frame": number, "step": step, "time": times[number]}
     if particles:
         arguments = argparse.Namespace(**{**vars(arguments), "files": particles.files, "dt": folder.dt})
     with open_run(arguments) as opened:
@@ -82,9 +83,10 @@ def _start_window(given: dict[str, Any]) -> None:
     if not os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY"):
         raise ImportError("expected a display for the window, got none: without --window, granular show makes a picture")
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    path = os.pathsep.join([os.path.dirname(package), *filter(None, [os.environ.get("PYTHONPATH")])])
-    done = subprocess.run([paraview, "--script=" + os.path.join(package, "_window.py")],
-                          env={**os.environ, "GRANULAR_WINDOW": json.dumps(given), "PYTHONPATH": path})
+    with tempfile.NamedTemporaryFile("w", suffix=".json") as file:  # a variable takes few names of files
+        json.dump({**given, "package": os.path.dirname(package)}, file)
+        file.flush()
+        done = subprocess.run([paraview, "--script=" + os.path.join(package, "_window.py")], env={**os.environ, "GRANULAR_WINDOW": file.name})
     if done.returncode:
         raise RuntimeError(f"{paraview}: expected the exit status 0, got {done.returncode}")
 
@@ -98,7 +100,7 @@ def run(arguments: argparse.Namespace) -> None:
     given, facts = _find(arguments, folder)
     walls = [path for each in folder.walls for path in each.files_at(facts["step"])] if folder else []
     if arguments.window:
-        _start_window({"folder": folder.path, "dt": arguments.dt, "color": arguments.color} if folder else {**given, "color": arguments.color})
+        _start_window({**({"folder": folder.path, "dt": arguments.dt, "time": facts["time"]} if folder else given), "color": arguments.color})
         return
     given |= {"color": arguments.color, "size": list(map(int, parts)), "walls": walls}
     name = folder.path if folder else os.path.splitext(given["files"][0])[0]

@@ -10,6 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataObjectTypes
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkExtentTranslator
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
+from .. import _library as c
 from ._algorithm import piece_of
 from ._arrays import Table, cells, numbers, pass_piece, pass_rows
 from ._contents import Content, add_lines, lines, particles, places, values_of
@@ -165,8 +166,11 @@ class _CellAverage(_Average):
         return tuple(asked)
 
     def apply(self, split: bool = False, times: Sequence[float] = (), shown: int = 0) -> list[Table]:
-        if self.output == _IMAGE and self._whole[1] > 0:
-            self._extra = {"CellRange": self._extent, "CellsBy": 0, "CellCounts": self._whole[1::2]}
+        if self.output == _IMAGE and "GridOnly" not in self._extra:
+            if self._whole[1] > 0:
+                self._extra = {"CellRange": self._extent, "CellsBy": 0, "CellCounts": self._whole[1::2]}
+            elif self._needs_frame():
+                raise c.Error("expected the number of cells of the image, got an error: see the messages before")
         try:
             if not self.values["TimeAverage"]:
                 return super().apply()
@@ -175,6 +179,11 @@ class _CellAverage(_Average):
             return super().apply(times=self._times)
         finally:
             self._close()
+
+    def _needs_frame(self) -> bool:
+        """True if the cells of an image follow from a frame."""
+        bounds, by = self.values["Bounds"], self.values["CellsBy"]
+        return by == 2 or by == 1 and not all(lo <= hi and (lo or hi) for lo, hi in zip(bounds[::2], bounds[1::2]))
 
     def _close(self) -> None:
         for one in self._frames.values():

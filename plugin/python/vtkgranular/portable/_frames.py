@@ -75,7 +75,7 @@ class InputFrames:
         if time is not None:
             if self._shown is None:
                 shown = self._shown_time()
-                self._shown = time if shown is None else shown
+                self._shown = (self.times() or [time])[0] if shown is None else shown
             self._info.Set(Pipeline.UPDATE_TIME_STEP(), time)
         requests = vtkInformationVector()
         requests.SetNumberOfInformationObjects(self._port + 1)

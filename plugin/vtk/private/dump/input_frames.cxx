@@ -97,7 +97,8 @@ bool InputFrames::UpdateHere(std::optional<double> time)
   {
     if (!this->TimeBefore)
     {
-      this->TimeBefore = this->GetShownTime().value_or(*time);
+      const std::vector<double> times = this->GetTimes();
+      this->TimeBefore = this->GetShownTime().value_or(times.empty() ? *time : times.front());
     }
     this->Info->Set(Pipeline::UPDATE_TIME_STEP(), *time);
   }
