@@ -180,7 +180,9 @@ class Folder(Mapping[str, Series]):
         wholes = {_stem(name) for name in sizes if _ending(name).startswith(".pv")}  # whose pieces have one number more
         self._series: list[Series] = []
         for name, names, steps in _families([name for name in sizes if "boundingBox" not in name]):
-            is_piece = _ending(name).startswith(".vt") and re.sub(r"_\d+$", "", _stem(names[0])) in wholes
+            stem = _stem(names[0])
+            is_piece = _ending(name).startswith(".vt") and \
+                any(stem[:rank.start()] + stem[rank.end():] in wholes for rank in re.finditer(r"_\d+(?=[._]|$)", stem))
             if any(sizes[each] for each in names) and not is_piece:
                 has_box = any(_stem(each) in self._boxes for each in names)
                 files = [(os.path.join(self.path, each), sizes[each]) for each in names]

@@ -172,11 +172,16 @@ def _draw_frame(renderer: Any, given: dict[str, Any]) -> Any:
 
 
 def _draw_file(renderer: Any, given: dict[str, Any]) -> Any:
-    """Draws particles of a VTK file and their box, and returns the centre of the picture."""
+    """Draws particles of VTK files and their box, and returns the centre of the picture."""
     import numpy
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
-    data = _read(given["files"][0], 0)
+    pieces = vtkAppendPolyData()
+    for path in given["files"]:  # one of each rank
+        pieces.AddInputData(_read(path, 0))
+    pieces.Update()
+    data = pieces.GetOutput()
     for bounds in [_read(path, 0).GetBounds() for path in given["boxes"]] or [data.GetBounds()]:
         lo, hi = numpy.array(bounds[::2]), numpy.array(bounds[1::2])
         centre = (lo + hi) / 2
