@@ -249,7 +249,7 @@ typedef struct granular_request
   size_t array_count;
   int points; /* 1 (default); 0: no points, and coordinates are arrays like others */
   /* a box xlo, xhi, ylo, yhi, zlo, zhi in absolute coordinates, faces included: only particles in it are read; an axis with lo >
-   * hi (default) is not restricted; no NaN (dumps and data files) */
+   * hi (default), or of 0 0, is not restricted; no NaN (dumps and data files) */
   double region[6];
   /* n keeps particles whose id is a multiple of n, or each n-th row without ids; 1 (default): all (dumps and data files) */
   int64_t stride;
