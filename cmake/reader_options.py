@@ -173,7 +173,7 @@ FROM_C = {"text": "made.{core} = text_of(given.{c});", "names": "made.{core} = t
 PYTHON_TYPES = {"text": "str", "names": "str | Iterable[str]", "choice": "str", "flag": "bool", "count": "int", "int": "int", "threads": "int",
                 "number": "float | None", "point": "Any", "region": "Any"}
 PYTHON_MORE = {"names": "; or a list", "point": "; shape (3,)", "region": "; or three pairs; None where there is no bound"}
-C_MORE = {"region": "; an axis with lo > hi (default) is not restricted; no NaN"}
+C_MORE = {"region": "; an axis with lo > hi (default), or of 0 0, is not restricted; no NaN"}
 
 
 def text_of(table, option, shown, more):
