@@ -97,8 +97,8 @@ private:
     const granular::ChosenCells cells = DescribeCells(*this->Self);
     if (this->Self->OutputType == IMAGE_DATA && this->Self->Counts[0] == 0 && cells.need_frame())
     {
-      throw granular::Error( // from a pipeline that goes on after RequestInformation failed
-        "expected the number of cells of the image, got an error: see the messages before");
+      FindImage(this->Self, this->Ranks); // throws again what RequestInformation told
+      throw granular::Error("the number of cells was not found before: update again");
     }
     granular::CellAveraging averaging(this->Choose(this->Self->Weights, this->Self->StressArray),
       cells, this->Group, this->Notices);
@@ -248,13 +248,17 @@ int vtkGranularEulerAverage::RequestInformation(vtkInformation* vtkNotUsed(reque
     info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
     return 1;
   }
+  granular::EulerGrid grid;
   const Outcome outcome = Guard(this, *this->Ranks, outputVector,
     [&]
     {
-      const granular::EulerGrid grid = Task::FindImage(this, this->Ranks->Get());
-      this->Counts = grid.counts;
+      grid = Task::FindImage(this, this->Ranks->Get());
       OfferExtent(info, ExtentOf(grid));
     });
+  if (outcome == Outcome::Done)
+  {
+    this->Counts = grid.counts; // on all ranks
+  }
   return this->Ranks->EndRequest(this, outcome);
 }
 

@@ -141,12 +141,7 @@ class _CellAverage(_Average):
         self._whole = (0, -1) * 3
 
         def work() -> None:
-            self.data, self._extra, self.piece = [None], {"GridOnly": 1}, own_piece()
-            try:
-                counts = vtk_to_numpy(super(_CellAverage, self).apply()[0].arrays["counts"]).ravel()
-            finally:
-                self._close()
-            self._whole = tuple(int(bound) for count in counts for bound in (0, count))
+            self._whole = tuple(int(bound) for count in self._find_counts() for bound in (0, count))
             info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
             info.Set(Pipeline.WHOLE_EXTENT(), self._whole, 6)
             info.Set(Pipeline.UNRESTRICTED_UPDATE_EXTENT(), 1)
@@ -170,13 +165,22 @@ class _CellAverage(_Average):
             if self._whole[1] > 0:
                 self._extra = {"CellRange": self._extent, "CellsBy": 0, "CellCounts": self._whole[1::2]}
             elif self._needs_frame():
-                raise c.Error("expected the number of cells of the image, got an error: see the messages before")
+                self._find_counts()  # raises again what RequestInformation told
+                raise c.Error("the number of cells was not found before: update again")
         try:
             if not self.values["TimeAverage"]:
                 return super().apply()
             self._frames = {port: InputFrames(self, port, self.piece_of_inputs(self.piece)) for port in range(3) if self.data[port]}
             self._times = self._frames[0].shared_times()
             return super().apply(times=self._times)
+        finally:
+            self._close()
+
+    def _find_counts(self) -> Any:
+        """Returns how many cells an image has along x, y and z."""
+        self.data, self._extra, self.piece = [None], {"GridOnly": 1}, own_piece()
+        try:
+            return vtk_to_numpy(super().apply()[0].arrays["counts"]).ravel()
         finally:
             self._close()
 

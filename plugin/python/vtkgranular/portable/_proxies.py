@@ -11,6 +11,8 @@ from ._missing import PROPERTIES
 
 MODULE = __package__
 
+_NOTE = "\nThis is the portable plugin. The page docs/guide/portable.md says what the compiled one has besides."
+
 _BASES = ("internal_sources", "internal_filters", "internal_writers")
 _TAGS = {"GranularLocalReaderProxy": "SourceProxy", "GranularParticleReaderProxy": "SourceProxy", "PWriterProxy": "WriterProxy",
          "GranularMenuProxy": "SourceProxy"}
@@ -149,6 +151,9 @@ def define(classes: dict[str, type]) -> Any:
             if own is not None:
                 proxy.set("class", f"{MODULE}.{own.__name__}")
                 proxy.set("si_class", "vtkSIPythonSourceProxy")
+                text = proxy.find("Documentation")
+                if text is not None:
+                    text.text += _NOTE
                 defined.append((own, proxy))
         if len(group):
             kept.append(group)
