@@ -40,9 +40,10 @@ class CellAveraging : private Averaging
 public:
   using Want = std::function<WantedCells(const EulerGrid&)>;
 
-  CellAveraging(ChosenAverages chosen, ChosenCells cells, Communicator& ranks, Notices& notices)
+  CellAveraging(
+    ChosenAverages chosen, const ChosenCells& cells, Communicator& ranks, Notices& notices)
     : Averaging(std::move(chosen), ranks, notices)
-    , cells_(std::move(cells))
+    , cells_(cells)
   {
   }
 
