@@ -29,15 +29,6 @@ constexpr const char* ParticleFilters[] = { "Calculator", "Clip", "ExtractSelect
   "PassArrays", "PythonCalculator", "TemporalInterpolator", "TemporalShiftScale", "Threshold",
   "TransformFilter" };
 
-bool KeepsParticles(vtkSMSourceProxy* source, unsigned int port)
-{
-  const std::string name = source->GetXMLName() ? source->GetXMLName() : "";
-  const bool reader =
-    source->IsA("vtkSMGranularParticleReaderProxy") || name == "GranularVTKParticleReader";
-  return (reader && port == 0) ||
-    std::ranges::find(ParticleFilters, name) != std::end(ParticleFilters);
-}
-
 // Returns the representation that the hints of one of our own sources name for an output; only images have a volume.
 std::string FindHint(vtkSMSourceProxy* source, int port)
 {
@@ -87,13 +78,17 @@ bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
     auto* source = vtkSMSourceProxy::SafeDownCast(helper.GetAsProxy(0));
     const unsigned int port = helper.GetOutputPort(0);
     vtkPVDataInformation* data = source ? source->GetDataInformation(port) : nullptr;
-    const bool cells = source && std::string(source->GetXMLName()) == "GranularEulerAverage";
-    if (!data || cells || (data->GetNumberOfPoints() > 0 && !AreOurs(data)))
+    const std::string hint = data ? FindHint(source, static_cast<int>(port)) : "";
+    if (!data || (!hint.empty() && hint != "Grains") ||
+      (data->GetNumberOfPoints() > 0 && !AreOurs(data)))
     {
       return false;
     }
-    const vtkTypeInt64 vertices = data->GetNumberOfCells(); // one of each point, or none
-    if (vertices > 0 ? vertices != data->GetNumberOfPoints() : !KeepsParticles(source, port))
+    const vtkTypeInt64 cells = data->GetNumberOfCells(); // a vertex of each point, or none
+    const bool keeps = hint == "Grains" ||
+      std::ranges::find(ParticleFilters, std::string(source->GetXMLName())) !=
+        std::end(ParticleFilters);
+    if (cells > 0 ? cells != data->GetNumberOfPoints() : !keeps)
     {
       return false;
     }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Thermo tables of logs are the numbers that Python reads in known lines, and those that the same runs wrote into other files."""
 import bz2
+import functools
 import gzip
 import importlib.util
 import lzma
@@ -17,6 +18,7 @@ import vtkgranular as vg
 assert not {"numpy", "vtkmodules", "paraview", "pandas"} & {name.split(".")[0] for name in sys.modules}, "import vtkgranular imports these"
 
 import numpy  # noqa: E402
+from text_files import told, written  # noqa: E402
 
 ROOT = os.environ["GRANULAR_ROOT"]
 DATA = os.path.join(os.environ["GRANULAR_DATA"], "good", "log")
@@ -30,23 +32,7 @@ def raises(kind, call, *words):
         assert all(word in str(error) for word in words), error
         return error
     raise AssertionError(f"expected {kind}")
-
-
-def read(path, *expected, **options):
-    """The log, which warns once for each of the texts."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        log = vg.read_log(path, **options)
-    told = [str(warning.message) for warning in caught]
-    assert len(told) == len(expected) and all(part in text for part, text in zip(expected, told)), told
-    assert all(warning.filename == __file__ for warning in caught), caught
-    return log
-
-
-def written(text, name="made.txt"):
-    with open(name, "wb") as stream:
-        stream.write(text if isinstance(text, bytes) else text.encode())
-    return name
+read = functools.partial(told, vg.read_log)
 
 
 def zstandard(content):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables of fixes are the numbers that stand in their files, read by eye; and those that the log of the same run has."""
 import bz2
+import functools
 import gzip
 import lzma
 import os
@@ -11,27 +12,11 @@ import warnings
 import vtkgranular as vg
 
 import numpy  # noqa: E402
+from text_files import told, written  # noqa: E402
 
 DATA = os.path.join(os.environ["GRANULAR_DATA"], "good")
 NUMBERED = "whose rows are numbered"
-
-
-def read(path, *expected, **options):
-    """The table, which warns once for each of the texts."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        table = vg.read_table(path, **options)
-    told = [str(warning.message) for warning in caught]
-    assert len(told) == len(expected) and all(part in text for part, text in zip(expected, told)), told
-    assert all(warning.filename == __file__ for warning in caught), caught
-    return table
-
-
-def written(text, name="made.txt"):
-    with open(name, "wb") as stream:
-        stream.write(text if isinstance(text, bytes) else text.encode())
-    return name
-
+read = functools.partial(told, vg.read_table)
 
 # file, timesteps, all columns, then (column, shape, place, value); warnings
 FILES = (
