@@ -29,11 +29,15 @@ constexpr const char* ParticleFilters[] = { "Calculator", "Clip", "ExtractSelect
   "PassArrays", "PythonCalculator", "TemporalInterpolator", "TemporalShiftScale", "Threshold",
   "TransformFilter" };
 
+std::string NameOf(vtkSMProxy* proxy)
+{
+  return proxy->GetXMLName() ? proxy->GetXMLName() : "";
+}
+
 // Returns the representation that the hints of one of our own sources name for an output; only images have a volume.
 std::string FindHint(vtkSMSourceProxy* source, int port)
 {
-  const std::string name = source->GetXMLName() ? source->GetXMLName() : "";
-  vtkPVXMLElement* hints = name.starts_with("Granular") ? source->GetHints() : nullptr;
+  vtkPVXMLElement* hints = NameOf(source).starts_with("Granular") ? source->GetHints() : nullptr;
   for (unsigned int i = 0; hints && i < hints->GetNumberOfNestedElements(); ++i)
   {
     vtkPVXMLElement* hint = hints->GetNestedElement(i);
@@ -86,8 +90,7 @@ bool IsParticlesFromTheReaderOn(vtkSMProperty* input)
     }
     const vtkTypeInt64 cells = data->GetNumberOfCells(); // a vertex of each point, or none
     const bool keeps = hint == "Grains" ||
-      std::ranges::find(ParticleFilters, std::string(source->GetXMLName())) !=
-        std::end(ParticleFilters);
+      std::ranges::find(ParticleFilters, NameOf(source)) != std::end(ParticleFilters);
     if (cells > 0 ? cells != data->GetNumberOfPoints() : !keeps)
     {
       return false;
