@@ -48,6 +48,5 @@ if os.path.exists(stub):  # where VTK has its generator
     assert all(f"class {name}(" in text for name in dir(vg.vtkGranular) if name.startswith("vtkGranular"))
 page = pydoc.plain(pydoc.render_doc(vg))
 assert "vtkgranular.fetch(reader" in page.split("FUNCTIONS")[0]
-functions = [name for name in vg.__all__ if inspect.isfunction(getattr(vg, name))]
-lines = 19 if sys.version_info < (3, 13) else 28  # for each function; 3.13 gives each parameter a line
-assert len(page.splitlines()) < lines * len(functions), "help(vtkgranular) is longer than anybody reads"
+lines = 400 if sys.version_info < (3, 13) else 600  # which gives each parameter a line
+assert len(page.splitlines()) < lines, "help(vtkgranular) is longer than anybody reads"

@@ -1004,10 +1004,7 @@ def open(paths: str | os.PathLike[str] | Iterable[str | os.PathLike[str]], dt: f
 
 
 def kind_of(path: str | os.PathLike[str]) -> str | None:
-    """Returns what a file is by its contents, as `kind` of vtkgranular.open.
-
-    None: it is of none of these kinds, and vtkgranular.open names it in its error; or there is no file.
-    """
+    """Returns what a file is by its contents, as `kind` of vtkgranular.open; None for other files, which that names, and for none."""
     kind = c.c_int()
     c.library().granular_find_kind(c.name_bytes(os.fspath(path)), c.byref(kind))
     return KINDS[kind.value] if kind.value >= 0 else None
