@@ -46,7 +46,7 @@ std::unique_ptr<granular_frame> frame_of(const std::vector<Subdomain>& all, Fram
   {
     add_array(table, name, ValueType::Float64, 3,
       block_of_each<double>(all,
-        [&](const Subdomain& each, std::vector<double>& values)
+        [corner = corner](const Subdomain& each, std::vector<double>& values)
         { values.insert(values.end(), (each.*corner).begin(), (each.*corner).end()); }));
   }
   add_array(table, "nlocal", ValueType::Int64, 1,

@@ -82,8 +82,9 @@ extern "C"
       [&]
       {
         needed(writer, "writer") = nullptr;
-        *writer =
-          create_writer(&needed(path, "a path"), taken(format, granular_format_init)).release();
+        *writer = create_writer(
+          granular::with_slashes(&needed(path, "a path")), taken(format, granular_format_init))
+                    .release();
       });
   }
 

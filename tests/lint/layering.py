@@ -35,16 +35,13 @@ STANDARD = set("""
     cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype""".split())
 
 # Headers that are neither ours nor of the C++ standard library, and the files that may have them.
-_OPERATING_SYSTEM = r"(fcntl|unistd|sys/\w+)\.h"
 SYSTEM_HEADERS = (
-    (_OPERATING_SYSTEM, r"core/granular/bytes/((byte_(source(_\w+)?|sink)|locked_file)\.cpp|system_calls\.h)"),
-    (r"glob\.h", r"core/granular/bytes/find_files\.cpp"),
+    (r"(fcntl|glob|sched|unistd|sys/\w+)\.h", r"core/granular/.*_posix\.cpp"),
+    (r"(fcntl|io|malloc|process|windows)\.h", r"core/granular/.*_windows\.cpp"),
     (r"zlib\.h", r"core/granular/bytes/(byte_source_gzip|compression|inflate)\.cpp"),
     (r"isa-l/\w+\.h", r"core/granular/bytes/inflate\.cpp"),
     (r"(zstd|zstd_errors)\.h", r"core/granular/bytes/(byte_source_zstd|compression)\.cpp"),
-    (r"(sched|unistd)\.h", r"core/granular/parallel/executor\.cpp"),
-    (r"sys/mman\.h", r"core/granular/memory/block\.cpp"),
-    (r"immintrin\.h", r"core/granular/(common/intrinsics\.h|text/line_scan\.cpp)"),
+    (r"immintrin\.h", r"core/granular/(common/(intrinsics\.h|fma_windows\.cpp)|text/line_scan\.cpp)"),
     (r"mpi\.h", r"core/granular/mpi/.*"),
 )
 

@@ -4,20 +4,13 @@
 #include "granular/bytes/system_calls.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <system_error>
 #include <utility>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace granular
 {
 namespace
 {
-constexpr mode_t permission_bits = 0777;
-
 [[noreturn]] void fail(const std::string& path, int error)
 {
   throw IoError("cannot write: " + std::generic_category().message(error), { path },
@@ -37,14 +30,14 @@ void pwrite_all(int file, std::int64_t offset, std::string_view bytes, const std
   constexpr std::size_t most_bytes = std::size_t{ 1 } << 30; // systems refuse 2 GiB at once
   while (!bytes.empty())
   {
-    const ssize_t done =
-      ::pwrite(file, bytes.data(), std::min(bytes.size(), most_bytes), static_cast<off_t>(offset));
+    const std::ptrdiff_t done =
+      os::write_at(file, bytes.data(), std::min(bytes.size(), most_bytes), offset);
     if (done < 0 && errno != EINTR)
     {
       fail(path, errno);
     }
     bytes.remove_prefix(done > 0 ? static_cast<std::size_t>(done) : 0);
-    offset += std::max(done, ssize_t{ 0 });
+    offset += std::max(done, std::ptrdiff_t{ 0 });
   }
 }
 
@@ -69,7 +62,7 @@ public:
   {
     if (file_ >= 0)
     {
-      ::close(file_);
+      os::close(file_);
     }
   }
 
@@ -78,93 +71,68 @@ public:
   /// Closes the file. Returns an error: a full disk behind a network may show here first.
   int close() noexcept
   {
-    return ::close(std::exchange(file_, -1)) != 0 && errno != EINTR ? errno : 0;
+    return os::close(std::exchange(file_, -1)) != 0 && errno != EINTR ? errno : 0;
   }
 
 private:
   int file_;
 };
 
-Descriptor open_existing(const std::string& name, int flags)
-{
-  return Descriptor(call_again([&] { return ::open(name.c_str(), flags | O_CLOEXEC); }));
-}
-
 /// 0, or the reason. Some file systems keep nothing, or cannot tell.
 int sync(int file) noexcept
 {
-  const bool done = call_again([&] { return ::fsync(file); }) == 0;
+  const bool done = os::sync(file) == 0;
   return done || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS ? 0 : errno;
 }
 
 template <class Work>
 void with_existing(const std::string& name, const std::string& path, const Work& work)
 {
-  Descriptor file = open_existing(name, O_WRONLY);
+  Descriptor file(os::open(name, os::Opening::Write));
   check(file.get() < 0 ? errno : 0, path);
   work(file.get());
   check(file.close(), path);
-}
-
-/// The path behind all symbolic links, there or not, where the folders before it are left as they are.
-std::string follow(const std::string& path, std::error_code& error)
-{
-  namespace fs = std::filesystem;
-  constexpr int most_links = 40; // as Linux has it
-  fs::path behind = path;
-  for (int links = 0; links <= most_links; ++links)
-  {
-    std::error_code ignored; // what it is is asked again
-    if (!fs::is_symlink(fs::symlink_status(behind, ignored)))
-    {
-      return behind.string();
-    }
-    behind = behind.parent_path() / fs::read_symlink(behind, error);
-    if (error)
-    {
-      return {};
-    }
-  }
-  error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
-  return {};
 }
 }
 
 NewFile::NewFile(const std::string& path, Locking locking)
   : path_(path)
 {
-  std::error_code error;
-  target_ = follow(path, error);
-  if (error)
+  if (path.empty())
   {
-    fail(path_, error.value());
+    fail(path_, ENOENT);
   }
-  struct stat old = {};
-  if (::lstat(target_.c_str(), &old) == 0)
+  target_ = os::follow(path);
+  if (target_.empty())
   {
-    if (S_ISDIR(old.st_mode))
+    fail(path_, errno);
+  }
+  os::Status old;
+  if (os::status_of(target_, old) == 0)
+  {
+    if (old.kind == os::Kind::Folder)
     {
       fail(path_, EISDIR);
     }
-    if (!S_ISREG(old.st_mode))
+    if (old.kind != os::Kind::File)
     {
       throw IoError("cannot write: expected a file, got a device or a pipe", { path_ },
         std::errc::not_supported);
     }
-    if (::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
+    if (os::may_write(target_) != 0)
     {
       fail(path_, errno); // who may not write it may not replace it either
     }
-    permissions_ = static_cast<int>(old.st_mode & permission_bits);
-    owner_ = old.st_uid;
-    group_ = old.st_gid;
+    permissions_ = static_cast<int>(old.permissions);
+    owner_ = old.owner;
+    group_ = old.group;
   }
-  else if (errno != ENOENT || path.empty())
+  else if (errno != ENOENT)
   {
     fail(path_, errno);
   }
   this->create(locking);
-  if (permissions_ >= 0 && ::geteuid() != 0) // root's file is root's until the end: see LockedFile
+  if (permissions_ >= 0 && os::user() != 0) // root's file is root's until the end: see LockedFile
   {
     try
     {
@@ -195,9 +163,8 @@ void NewFile::create(Locking locking)
   if (locking == Locking::Others)
   {
     name_ += LockedFile::data_ending;
-    ::unlink(name_.c_str()); // nobody else may have it: the lock is this object's
-    file_ = call_again(
-      [&] { return ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode); });
+    os::remove(name_); // nobody else may have it: the lock is this object's
+    file_ = os::open(name_, os::Opening::Create, mode);
     check(file_ < 0 ? errno : 0, path_);
   }
 }
@@ -205,9 +172,9 @@ void NewFile::create(Locking locking)
 /// Some file systems give all files one owner, so only the new file tells whether its owner differs.
 void NewFile::keep_owner() const
 {
-  struct stat now = {};
-  check(::fstat(file_, &now) != 0 ? errno : 0, path_);
-  if ((now.st_uid != owner_ || now.st_gid != group_) && ::fchown(file_, owner_, group_) != 0)
+  os::Status now;
+  check(os::status_of(file_, now) != 0 ? errno : 0, path_);
+  if ((now.owner != owner_ || now.group != group_) && os::set_owner(file_, owner_, group_) != 0)
   {
     const int error = errno;
     throw IoError("cannot write: the new file would not keep the owner and group of the old one: " +
@@ -225,7 +192,7 @@ void NewFile::remove() noexcept
 {
   if (locked_ && name_ != locked_->name() && locked_->is_own())
   {
-    ::unlink(name_.c_str());
+    os::remove(name_);
   }
   this->close();
 }
@@ -244,7 +211,7 @@ void NewFile::close() noexcept
 {
   if (file_ >= 0 && file_ != locked_->descriptor())
   {
-    ::close(file_);
+    os::close(file_);
   }
   file_ = -1;
   locked_.reset();
@@ -262,10 +229,10 @@ void NewFile::set_permissions() const
   {
     this->keep_owner();
     // a file system without permissions gives all files the same, and may refuse to set them
-    const auto wanted = static_cast<mode_t>(permissions_);
-    struct stat now = {};
-    if (::fstat(file_, &now) != 0 ||
-      ((now.st_mode & permission_bits) != wanted && ::fchmod(file_, wanted) != 0))
+    const auto wanted = static_cast<unsigned>(permissions_);
+    os::Status now;
+    if (os::status_of(file_, now) != 0 ||
+      (now.permissions != wanted && os::set_permissions(file_, wanted) != 0))
     {
       fail(path_, errno);
     }
@@ -275,7 +242,7 @@ void NewFile::set_permissions() const
 /// Closes the file as far as a full disk behind a network may show, but not the lock: it holds until the file has its name.
 void NewFile::expect_written() const
 {
-  Descriptor second(::fcntl(file_, F_DUPFD_CLOEXEC, 0));
+  Descriptor second(os::duplicate(file_));
   check(second.get() < 0 ? errno : second.close(), path_);
 }
 
@@ -283,9 +250,8 @@ void NewFile::complete(bool durable) const
 {
   if (file_ != locked_->descriptor())
   {
-    const Descriptor now =
-      open_existing(name_, O_RDONLY | O_NOFOLLOW); // others may have made it anew
-    check(now.get() < 0 || ::dup3(now.get(), file_, O_CLOEXEC) < 0 ? errno : 0, path_);
+    const Descriptor now(os::open(name_, os::Opening::ReadSame)); // others may have made it anew
+    check(now.get() < 0 || os::duplicate_to(now.get(), file_) < 0 ? errno : 0, path_);
   }
   this->set_permissions();
   check(durable ? sync(file_) : 0, path_);
@@ -298,7 +264,7 @@ void NewFile::hold(bool durable)
   this->complete(durable);
   if (file_ != locked_->descriptor())
   {
-    ::close(file_);
+    os::close(file_);
   }
   locked_->close();
   file_ = -1;
@@ -320,12 +286,13 @@ void NewFile::finish(bool durable)
   Descriptor folder(-1);
   if (durable)
   {
-    folder = open_existing(target_.substr(0, target_.rfind('/') + 1) + ".", O_RDONLY | O_DIRECTORY);
+    folder =
+      Descriptor(os::open(target_.substr(0, target_.rfind('/') + 1) + ".", os::Opening::Folder));
     // a folder that may not be read cannot be synchronised
     check(folder.get() < 0 && errno != EACCES ? errno : 0, path_);
   }
   this->expect_name();
-  if (std::rename(name_.c_str(), target_.c_str()) != 0)
+  if (os::rename(name_, target_) != 0)
   {
     fail(path_, errno);
   }

@@ -8,9 +8,6 @@
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 namespace granular
 {
 namespace
@@ -37,8 +34,7 @@ class FileSource final : public ByteSource
 public:
   explicit FileSource(const std::string& path)
     : path_(path)
-    // O_NONBLOCK: a pipe of that name must not make the open wait; it changes nothing for files
-    , file_(call_again([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }))
+    , file_(os::open(path, os::Opening::Read))
   {
     if (file_ < 0)
     {
@@ -48,12 +44,12 @@ public:
 
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
-  ~FileSource() override { ::close(file_); }
+  ~FileSource() override { os::close(file_); }
 
   const std::string& path() const override { return path_; }
   bool concurrent() const override { return true; }
 
-  FileStamp stamp() const override { return stamp_of_status(this->status()); }
+  FileStamp stamp() const override { return this->status().stamp; }
 
   std::size_t read(std::int64_t offset, char* buffer, std::size_t bytes) const override
   {
@@ -61,8 +57,7 @@ public:
     while (done < bytes)
     {
       const std::int64_t at = offset + static_cast<std::int64_t>(done);
-      const ssize_t got =
-        call_again([&] { return ::pread(file_, buffer + done, bytes - done, at); });
+      const std::ptrdiff_t got = os::read_at(file_, buffer + done, bytes - done, at);
       if (got < 0)
       {
         fail("read", path_, errno);
@@ -80,15 +75,15 @@ public:
   /// Takes what the file is now for the least that it has from then on. Throws IoError for what is no plain file.
   void expect_file()
   {
-    const struct stat status = this->status();
-    if (!S_ISREG(status.st_mode))
+    const os::Status status = this->status();
+    if (status.kind != os::Kind::File)
     {
-      refuse_no_file(path_, S_ISDIR(status.st_mode));
+      refuse_no_file(path_, status.kind == os::Kind::Folder);
     }
-    size_ = status.st_size;
+    size_ = status.stamp.size;
     char byte = 0;
     // it has not grown meanwhile, either
-    if (size_ == 0 && ::pread(file_, &byte, 1, 0) > 0 && this->status().st_size == 0)
+    if (size_ == 0 && os::read_at(file_, &byte, 1, 0) > 0 && this->stamp().size == 0)
     {
       throw IoError("expected a file of a known size, got one of the system's, as in /proc",
         { path_ }, std::errc::not_supported);
@@ -96,10 +91,10 @@ public:
   }
 
 private:
-  struct stat status() const
+  os::Status status() const
   {
-    struct stat status;
-    if (::fstat(file_, &status) != 0)
+    os::Status status;
+    if (os::status_of(file_, status) != 0)
     {
       fail("stat", path_, errno);
     }

@@ -43,7 +43,7 @@ std::string gzip(std::string_view bytes)
     &stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, usual_memory, Z_DEFAULT_STRATEGY));
   const std::unique_ptr<z_stream, EndDeflate> end(&stream);
 
-  std::string packed(deflateBound(&stream, bytes.size()), '\0');
+  std::string packed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
   std::string_view in = bytes;
   std::size_t out = 0;
   for (int status = Z_OK; status != Z_STREAM_END;)
@@ -120,8 +120,8 @@ std::string compress(std::string_view bytes, Compression how)
 
 bool decompress_zlib(std::string_view packed, std::span<char> bytes)
 {
-  uLongf size = bytes.size();
-  uLong used = packed.size();
+  auto size = static_cast<uLongf>(bytes.size()); // Windows has 32 bits for it
+  auto used = static_cast<uLong>(packed.size());
   const int status = uncompress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
     reinterpret_cast<const Bytef*>(packed.data()), &used);
   if (status == Z_MEM_ERROR)

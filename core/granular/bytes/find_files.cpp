@@ -4,19 +4,13 @@
 #include "granular/bytes/system_calls.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <memory>
 #include <set>
 #include <system_error>
-
-#include <glob.h>
 
 namespace granular
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 bool is_digit(char c) noexcept
 {
   return c >= '0' && c <= '9';
@@ -92,10 +86,11 @@ bool is_in_set(std::string_view set, char c) noexcept
   return found != negated;
 }
 
-bool is_file(const std::string& path)
+/// Returns true if a path is one of this kind, perhaps behind links.
+bool is_kind(const std::string& path, os::Kind kind) noexcept
 {
-  std::error_code none;
-  return fs::is_regular_file(path, none);
+  os::Status status;
+  return os::status_of(path, status, true) == 0 && status.kind == kind;
 }
 
 /// Other files that lie beside those of a run.
@@ -112,8 +107,8 @@ std::string last_part(const std::string& path)
 /// The folders that a pattern begins with, as far as they are there under these names, with a slash at the end.
 std::string_view folders_of(std::string_view pattern)
 {
-  std::error_code none;
-  while (!pattern.empty() && !(pattern.ends_with('/') && fs::is_directory(pattern, none)))
+  while (!pattern.empty() &&
+    !(pattern.ends_with('/') && is_kind(std::string(pattern), os::Kind::Folder)))
   {
     pattern.remove_suffix(1);
   }
@@ -135,58 +130,53 @@ std::string shell_pattern(const std::string& pattern)
   return shell + rest;
 }
 
+[[noreturn]] void fail(const char* action, const std::string& path, int error)
+{
+  throw IoError(std::string("cannot ") + action + ": " + std::generic_category().message(error),
+    { path }, static_cast<std::errc>(error));
+}
+
 /// Says why a pattern fits no file.
 [[noreturn]] void refuse(const std::string& pattern)
 {
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(pattern, error)))
+  os::Status status;
+  if (os::status_of(pattern, status) == 0)
   {
-    const fs::file_status status = fs::status(pattern, error);
-    if (fs::exists(status))
+    if (os::status_of(pattern, status, true) != 0)
     {
-      refuse_no_file(pattern, fs::is_directory(status));
+      fail("open", pattern, errno); // a link
     }
-    error = error ? error : std::make_error_code(std::errc::no_such_file_or_directory); // a link
-    throw IoError(
-      "cannot open: " + error.message(), { pattern }, static_cast<std::errc>(error.value()));
+    refuse_no_file(pattern, status.kind == os::Kind::Folder);
   }
-  const std::string folder(folders_of(pattern));
-  const fs::directory_iterator files(folder.empty() ? "." : folder, error);
-  if (error)
+  std::string folder(folders_of(pattern));
+  folder = folder.empty() ? "." : folder;
+  if (os::list(folder) != 0)
   {
-    throw IoError("cannot list the folder: " + error.message(), { folder.empty() ? "." : folder },
-      static_cast<std::errc>(error.value()));
+    fail("list the folder", folder, errno);
   }
   throw IoError("no file fits the pattern", { pattern }, std::errc::no_such_file_or_directory);
-}
-
-/// Returns true if a name that a pattern fits is that of a file, perhaps behind links. Throws IoError if the system does not tell.
-bool is_fitting_file(const std::string& name)
-{
-  std::error_code error;
-  const fs::file_status status = fs::status(name, error);
-  if (status.type() == fs::file_type::none)
-  {
-    throw IoError(
-      "cannot open: " + error.message(), { name }, static_cast<std::errc>(error.value()));
-  }
-  return fs::is_regular_file(status);
 }
 
 /// Appends the files that a pattern of the shell fits.
 void add_files(const std::string& pattern, std::vector<std::string>& names)
 {
-  glob_t found = {};
-  const std::unique_ptr<glob_t, decltype(&::globfree)> free(&found, ::globfree);
-  if (::glob(pattern.c_str(), GLOB_NOESCAPE | GLOB_NOSORT, nullptr, &found) == 0)
+  for (const std::string& name : os::glob(pattern))
   {
-    for (std::size_t i = 0; i < found.gl_pathc; ++i)
+    os::Status status;
+    if (is_beside(last_part(name)))
     {
-      const std::string name = found.gl_pathv[i];
-      if (!is_beside(last_part(name)) && is_fitting_file(name))
+      continue;
+    }
+    if (os::status_of(name, status, true) == 0)
+    {
+      if (status.kind == os::Kind::File)
       {
         names.push_back(name);
       }
+    }
+    else if (errno != ENOENT && errno != ENOTDIR)
+    {
+      fail("open", name, errno);
     }
   }
 }
@@ -236,14 +226,26 @@ bool has_numbers(std::string_view name, std::string_view pattern)
   return fits && has_numbers(name.substr(1), pattern.substr(std::max<std::size_t>(set, 1)));
 }
 
+bool is_there(const std::string& path)
+{
+  os::Status status;
+  const bool found = os::status_of(path, status, true) == 0;
+  if (!found && errno != ENOENT && errno != ENOTDIR && errno != ENAMETOOLONG)
+  {
+    fail("look for the file", path, errno);
+  }
+  return found;
+}
+
 std::vector<std::string> find_files(const std::vector<std::string>& patterns)
 {
   std::set<std::string> all;
-  for (const std::string& pattern : patterns)
+  for (const std::string& given : patterns)
   {
-    if (is_file(pattern)) // perhaps a name that happens to hold such signs
+    const std::string pattern = with_slashes(given);
+    if (is_kind(pattern, os::Kind::File)) // perhaps a name that happens to hold such signs
     {
-      all.insert(fs::absolute(pattern).lexically_normal().string());
+      all.insert(os::absolute(pattern));
       continue;
     }
     std::vector<std::string> fitting;
@@ -267,7 +269,7 @@ std::vector<std::string> find_files(const std::vector<std::string>& patterns)
     }
     for (const std::string& name : numbered.empty() ? fitting : numbered)
     {
-      all.insert(fs::absolute(name).lexically_normal().string());
+      all.insert(os::absolute(name));
     }
   }
   std::vector<std::string> sorted(all.begin(), all.end());

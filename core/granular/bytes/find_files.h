@@ -18,6 +18,12 @@ namespace granular
 /// Throws IoError if a pattern fits no file, or names something else than a file, or a folder that cannot be listed.
 std::vector<std::string> find_files(const std::vector<std::string>& patterns);
 
+/// Returns a path with slashes alone: Windows also takes backslashes.
+std::string with_slashes(const std::string& path);
+
+/// Returns true if there is something at a path, perhaps behind links. Throws IoError if the system does not tell.
+bool is_there(const std::string& path);
+
 /// Returns true if a name has a number, with or without decimals, for each `*` of a pattern.
 bool has_numbers(std::string_view name, std::string_view pattern);
 }

@@ -6,15 +6,9 @@
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
-#include <new>
 #include <string_view>
 #include <system_error>
 #include <utility>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace granular
 {
@@ -22,12 +16,12 @@ namespace
 {
 constexpr int most_tries = 1000; // numbers that are looked at
 constexpr int most_processes = 1000000;
+constexpr int other_file = -1; // no error of the system
 
 /// The folder of the target, and the begin of a name: the target's own name may have 255 bytes already.
 std::string begin_of_names(const std::string& target)
 {
-  std::array<char, 256> machine = {};
-  ::gethostname(machine.data(), machine.size() - 1); // without a name all machines are one
+  const std::string machine = os::machine(); // without a name all machines are one
   const std::size_t begin = target.rfind('/') + 1;
   Hash hash;
   hash.add(machine.data(), machine.size());
@@ -43,51 +37,31 @@ std::string numbered(const std::string& begin, int number)
   return begin + std::to_string(number) + ".tmp";
 }
 
-/// Returns 0 if a name is that of an open file, ESTALE if it is not, or why the system does not tell.
+/// Returns 0 if a name is that of an open file, other_file if it is not, or why the system does not tell.
 int compare_name(const std::string& name, int file) noexcept
 {
-  struct stat there = {};
-  struct stat open = {};
-  if (::fstat(file, &open) != 0 || (::lstat(name.c_str(), &there) != 0 && errno != ENOENT))
+  os::Status there;
+  os::Status open;
+  if (os::status_of(file, open) != 0 || (os::status_of(name, there) != 0 && errno != ENOENT))
   {
     return errno;
   }
-  return there.st_ino == open.st_ino && there.st_dev == open.st_dev ? 0 : ESTALE;
+  return there.stamp.inode == open.stamp.inode && there.stamp.device == open.stamp.device
+    ? 0
+    : other_file;
 }
 
 /// Returns nothing if there is no such file.
 FileStamp look_at(const std::string& name) noexcept
 {
-  struct stat there = {};
-  return ::lstat(name.c_str(), &there) == 0 ? stamp_of_status(there) : FileStamp{};
+  os::Status there;
+  return os::status_of(name, there) == 0 ? there.stamp : FileStamp{};
 }
 
 /// 0, or the reason. A lock is that of the open file: a thread keeps out the others of its program, too.
 int lock(int file)
 {
-  return call_again([&] { return ::flock(file, LOCK_EX | LOCK_NB); }) == 0 ? 0 : errno;
-}
-
-/// Removes the files and folders in a folder whose names begin like this, as far as the system tells them.
-void remove_all(const std::string& folder, std::string_view begin) noexcept
-{
-  try
-  {
-    std::error_code failed;
-    std::filesystem::directory_iterator entry(folder, failed);
-    for (; !failed && entry != end(entry); entry.increment(failed))
-    {
-      if (std::string_view(entry->path().filename().native()).starts_with(begin))
-      {
-        std::error_code ignored;
-        std::filesystem::remove_all(entry->path(), ignored);
-      }
-    }
-  }
-  catch (const std::bad_alloc&)
-  {
-    // small files stay
-  }
+  return os::lock(file) == 0 ? 0 : errno;
 }
 
 /// Removes a file whose writer is surely dead. Returns false if there is no file that might be one.
@@ -96,27 +70,26 @@ bool remove_left(const std::string& name)
   const std::string data = name + LockedFile::data_ending;
   const std::size_t begin = data.rfind('/') + 1;
   const std::string folder = begin == 0 ? "." : data.substr(0, begin);
-  const int file = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  const int file = os::open(name, os::Opening::WriteSame);
   if (file < 0)
   {
     return false;
   }
-  struct stat state = {};
-  if (::fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_uid == ::geteuid() &&
-    lock(file) == 0 && compare_name(name, file) == 0)
+  os::Status state;
+  if (os::status_of(file, state) == 0 && state.kind == os::Kind::File &&
+    state.owner == os::user() && lock(file) == 0 && compare_name(name, file) == 0)
   {
-    ::unlink(data.c_str()); // first: they are found by the last
-    remove_all(
-      folder, std::string_view(data).substr(begin)); // of Open MPI, and folders of the package
-    ::unlink(name.c_str());
+    os::remove(data);                           // first: they are found by the last
+    os::remove_all(folder, data.substr(begin)); // of Open MPI, and folders of the package
+    os::remove(name);
   }
-  ::close(file);
+  os::close(file);
   return true;
 }
 }
 
 LockedFile::LockedFile(const std::string& target, unsigned permissions)
-  : process_(::getpid())
+  : process_(os::process())
 {
   constexpr int most_free = 8; // names in a row: writers that ended have left gaps between others
   const std::string begin = begin_of_names(target);
@@ -127,7 +100,7 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
   for (int tries = 0, number = 0; tries < most_tries; ++tries, ++number)
   {
     name_ = numbered(begin, number);
-    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+    file_ = os::open(name_, os::Opening::Create, permissions);
     if (file_ < 0 && errno != EEXIST && errno != EINTR)
     {
       throw std::system_error(errno, std::generic_category());
@@ -138,24 +111,24 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
       continue;
     }
     const int locked = lock(file_);
-    const int error = locked == EWOULDBLOCK ? ESTALE : compare_name(name_, file_);
+    const int error = locked == EWOULDBLOCK ? other_file : compare_name(name_, file_);
     if (error == 0 && (locked == 0 || number >= most_tries))
     {
       return;
     }
-    if (error != ESTALE)
+    if (error != other_file)
     {
-      ::unlink(name_.c_str());
+      os::remove(name_);
     }
-    ::close(file_);
-    if (error != 0 && error != ESTALE)
+    os::close(file_);
+    if (error != 0 && error != other_file)
     {
       throw std::system_error(error, std::generic_category());
     }
     if (error == 0)
     {
       // Without a lock it would pass for one that was left as soon as another gets one: nobody looks at numbers like this.
-      number = most_tries * (1 + static_cast<int>(::getpid() % most_processes));
+      number = most_tries * (1 + static_cast<int>(os::process() % most_processes));
     }
   }
   throw std::system_error(EEXIST, std::generic_category());
@@ -164,26 +137,27 @@ LockedFile::LockedFile(const std::string& target, unsigned permissions)
 LockedFile::~LockedFile()
 {
   // where the system does not tell, the name is that of this file, as it was a moment ago
-  const bool has_name = file_ >= 0 ? compare_name(name_, file_) != ESTALE : this->has_name();
+  const bool has_name = file_ >= 0 ? compare_name(name_, file_) != other_file : this->has_name();
   if (this->is_own() && has_name)
   {
-    ::unlink(name_.c_str());
+    os::remove(name_);
   }
   if (file_ >= 0)
   {
-    ::close(file_);
+    os::close(file_);
   }
 }
 
 void LockedFile::close() noexcept
 {
+  os::settle(file_);
   closed_ = look_at(name_);
-  ::close(std::exchange(file_, -1));
+  os::close(std::exchange(file_, -1));
 }
 
 bool LockedFile::is_own() const noexcept
 {
-  return ::getpid() == process_;
+  return os::process() == process_;
 }
 
 bool LockedFile::has_name() const noexcept

@@ -1,138 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/memory/block.h"
 
+#include "granular/memory/mapping.h"
+
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <exception>
-#include <fstream>
 #include <limits>
 #include <new>
-#include <string>
 #include <utility>
-
-#include <sys/mman.h>
 
 namespace granular
 {
 namespace
 {
-constexpr std::size_t page = std::size_t{ 1 } << 16; // a multiple of every system's
-constexpr std::size_t large_page = std::size_t{ 1 } << 21;
-
-constexpr std::size_t round_down(std::size_t bytes, std::size_t unit)
-{
-  return bytes / unit * unit;
-}
-
-constexpr std::size_t round_up(std::size_t bytes, std::size_t unit)
-{
-  return round_down(bytes + unit - 1, unit);
-}
-
-/// Small ones lie side by side in small pages, which costs the system less.
-constexpr bool is_large(std::size_t capacity)
-{
-  return capacity >= 2 * large_page;
-}
-
-void give_back(char* from, char* to) noexcept
-{
-  if (from < to)
-  {
-    ::munmap(from, static_cast<std::size_t>(to - from));
-  }
-}
-
-void advise(const Mapping& mapping, std::size_t from, std::size_t to, int advice) noexcept
-{
-  if (from < to)
-  {
-    // only advice: it may be refused
-    ::madvise(static_cast<char*>(mapping.base) + from, to - from, advice);
-  }
-}
-
-/// Returns address space for at least this many bytes; a null base if the system has none.
-Mapping map_memory(std::size_t bytes) noexcept
-{
-  const std::size_t capacity = round_up(bytes, page);
-  const std::size_t room = is_large(capacity) ? capacity + large_page : capacity;
-  void* const found =
-    ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (found == MAP_FAILED)
-  {
-    return {};
-  }
-  char* const first = static_cast<char*>(found);
-  char* base = first;
-  if (is_large(capacity))
-  {
-    base += round_up(reinterpret_cast<std::uintptr_t>(first), large_page) -
-      reinterpret_cast<std::uintptr_t>(first);
-    give_back(first, base);
-    give_back(base + capacity, first + room);
-  }
-  return { base, capacity, 0 };
-}
-
-void unmap_memory(const Mapping& mapping) noexcept
-{
-  char* const base = static_cast<char*>(mapping.base);
-  give_back(base, base + mapping.capacity);
-}
-
-/// Prepares for filling the first bytes, bytes <= capacity. The first touch of fresh memory costs more than writing to
-/// it, page by page; large pages reduce that cost.
-void expect_bytes(Mapping& mapping, std::size_t bytes) noexcept
-{
-#ifdef MADV_HUGEPAGE
-  if (is_large(mapping.capacity) && bytes > mapping.resident)
-  {
-    // not the rest behind the last whole page: it would take a large page for itself
-    advise(mapping, 0, round_down(bytes, large_page), MADV_HUGEPAGE);
-  }
-#endif
-  mapping.resident = std::max(mapping.resident, bytes);
-}
-
-/// Returns the memory behind the first bytes to the system, but keeps the address space. Large pages stay whole.
-void keep_bytes(Mapping& mapping, std::size_t bytes) noexcept
-{
-  const std::size_t end = round_up(bytes, is_large(mapping.capacity) ? large_page : page);
-  if (end < mapping.resident)
-  {
-    advise(mapping, end, mapping.capacity, MADV_DONTNEED);
-    mapping.resident = end;
-  }
-}
-
-/// Declares the contents unneeded: if memory is short, the system may take that of large pages; otherwise it leaves it
-/// in place.
-void forget_bytes([[maybe_unused]] const Mapping& mapping) noexcept
-{
-#ifdef MADV_FREE
-  if (is_large(mapping.capacity))
-  {
-    advise(mapping, 0, round_down(mapping.resident, large_page), MADV_FREE);
-  }
-#endif
-}
-
-constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
-
-/// The number that a file of the system holds, or begins a line with that word.
-std::int64_t read_number(const char* path, const std::string& word = "")
-{
-  std::ifstream file(path);
-  std::int64_t number = unknown;
-  for (std::string line; !word.empty() && file >> line && line != word;)
-  {
-  }
-  return file >> number ? number : unknown;
-}
-
 /// Start of a mapping; the data are behind it. Small blocks are malloc's, without more.
 struct alignas(Block::alignment) Header
 {
@@ -167,14 +48,6 @@ __attribute__((no_sanitize("address", "thread"))) Header* header_of(void* data) 
   return found ? header : nullptr;
 }
 
-void* allocate_small(std::size_t bytes) noexcept
-{
-  void* data = nullptr;
-  const bool failed =
-    ::posix_memalign(&data, Block::alignment, std::max<std::size_t>(bytes, 1)) != 0;
-  return failed ? nullptr : data;
-}
-
 void* allocate_mapping(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
 {
   const std::size_t size = sizeof(Header) + bytes;
@@ -188,7 +61,11 @@ void* allocate_mapping(std::size_t bytes, const std::shared_ptr<BlockPool>& pool
   {
     return nullptr;
   }
-  expect_bytes(mapping, size);
+  if (!expect_bytes(mapping, size))
+  {
+    unmap_memory(mapping);
+    return nullptr;
+  }
   const auto self = reinterpret_cast<std::uintptr_t>(mapping.base);
   return new (mapping.base) Header{ header_mark, self, mapping, pool } + 1;
 }
@@ -200,26 +77,10 @@ void* allocate(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
   {
     return nullptr;
   }
-  return bytes < (pool ? least_pooled : least_mapped) ? allocate_small(bytes)
-                                                      : allocate_mapping(bytes, pool);
+  return bytes < (pool ? least_pooled : least_mapped)
+    ? allocate_small(std::max<std::size_t>(bytes, 1))
+    : allocate_mapping(bytes, pool);
 }
-}
-
-std::int64_t available_memory() noexcept
-{
-  try
-  {
-    const std::int64_t kilobytes = read_number("/proc/meminfo", "MemAvailable:");
-    const std::int64_t most = read_number("/sys/fs/cgroup/memory.max");
-    const std::int64_t used = read_number("/sys/fs/cgroup/memory.current");
-    const std::int64_t left = most == unknown || used == unknown ? unknown : most - used;
-    return std::min(
-      kilobytes == unknown ? unknown : kilobytes * 1024, std::max<std::int64_t>(left, 0));
-  }
-  catch (const std::exception&)
-  {
-    return unknown;
-  }
 }
 
 BlockPool::BlockPool(std::size_t limit) noexcept
@@ -382,7 +243,7 @@ void Block::free(void* data) noexcept
   Header* const header = header_of(data);
   if (!header)
   {
-    std::free(data);
+    free_small(data);
     return;
   }
   const Mapping mapping = header->mapping;

@@ -10,9 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include <sched.h>
-#include <unistd.h>
-
 namespace granular
 {
 namespace
@@ -56,21 +53,6 @@ struct Work
     }
   }
 };
-}
-
-int machine_cores() noexcept
-{
-  return std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)));
-}
-
-int available_cores() noexcept
-{
-  cpu_set_t set;
-  if (::sched_getaffinity(0, sizeof set, &set) == 0)
-  {
-    return std::max(1, CPU_COUNT(&set));
-  }
-  return machine_cores();
 }
 
 Executor::Executor(int threads) noexcept

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/restart/process_files.h"
 
+#include "granular/bytes/find_files.h"
 #include "granular/formats/restart/bond_record.h"
 #include "granular/formats/restart/find_chunks.h"
 #include "granular/formats/restart/restart_bytes.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace granular
@@ -94,18 +93,6 @@ const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidat
   const auto found = std::ranges::find_if(
     candidates, [](const ProcessNames& names) { return is_there(names.of(0)); });
   return found == candidates.end() ? nullptr : &*found;
-}
-
-bool is_there(const std::string& path)
-{
-  std::error_code code;
-  const bool found = std::filesystem::exists(path, code);
-  if (code && code != std::errc::filename_too_long)
-  {
-    throw IoError("cannot look for the file: " + code.message(), { path },
-      static_cast<std::errc>(code.value()));
-  }
-  return found;
 }
 
 void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress)

@@ -28,9 +28,6 @@ std::vector<ProcessNames> process_names(const std::string& base_path);
 /// Returns the pattern for which a file of rank 0 exists, or null.
 const ProcessNames* find_process_names(const std::vector<ProcessNames>& candidates);
 
-/// Returns true if a file, or anything else, of this name exists. Throws IoError if the system cannot tell.
-bool is_there(const std::string& path);
-
 /// Looks at the files of all ranks: layout.chunks and layout.records. Each is a count and so many doubles, only records.
 /// Throws FormatError that names the file; IoError; Cancelled.
 void read_process_files(const ProcessNames& names, RestartLayout& layout, Progress& progress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "granular/formats/restart/restart_file.h"
 
+#include "granular/bytes/find_files.h"
 #include "granular/formats/restart/process_files.h"
 #include "granular/formats/restart/restart_bytes.h"
 

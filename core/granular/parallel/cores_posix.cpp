@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "granular/parallel/executor.h"
+
+#include <algorithm>
+
+#include <sched.h>
+#include <unistd.h>
+
+namespace granular
+{
+int machine_cores() noexcept
+{
+  return std::max(1, static_cast<int>(::sysconf(_SC_NPROCESSORS_ONLN)));
+}
+
+int available_cores() noexcept
+{
+  cpu_set_t set;
+  if (::sched_getaffinity(0, sizeof set, &set) == 0)
+  {
+    return std::max(1, CPU_COUNT(&set));
+  }
+  return machine_cores();
+}
+}
