@@ -269,7 +269,11 @@ TEST(CMisuse, ArraysThatCannotBeWritten)
 // As the threads of Python do when Python ends: no lock stays, and the run can be used.
 TEST(CMisuse, AThreadThatEndsInTheProgress)
 {
-  const auto end = [](double, void*) -> int { ::pthread_exit(nullptr); };
+  const auto end = [](double, void*) -> int
+  {
+    ::pthread_exit(nullptr);
+    return 0;
+  };
   const auto ends = [](auto work)
   {
     bool is_through = false;
@@ -352,7 +356,7 @@ TEST(CMisuse, AnyRequestsOfAnyFile)
   std::mt19937 random(1);
   const auto one_of = [&](const auto& choices) { return choices[random() % std::size(choices)]; };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr std::array<double, 7> reals = { 0, -1, 1e300, infinity, -infinity, std::nan(""), 0.02 };
+  const std::array<double, 7> reals = { 0, -1, 1e300, infinity, -infinity, std::nan(""), 0.02 };
   constexpr std::array<std::int64_t, 7> integers = { 0, 1, -1, 2, 7, INT64_MAX, INT64_MIN };
   constexpr std::array<int, 6> few = { 0, 1, 2, 3, -1, INT32_MAX };
   constexpr std::array<const char*, 8> names = { "id", "v", "points", "ends", "radius", "x", "",

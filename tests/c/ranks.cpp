@@ -87,7 +87,7 @@ TEST(CRanks, TheirPartsAreTheWhole)
     {
       std::vector<std::string> remarks(static_cast<std::size_t>(size));
       const std::vector<std::string> parts = on_all(size,
-        [&](const granular_ranks& ranks)
+        [&, name = name, array = array](const granular_ranks& ranks)
         {
           return read_last(
             good(name), &ranks, request, array, remarks[static_cast<std::size_t>(ranks.rank)]);

@@ -119,7 +119,8 @@ TEST(RoundedSums, RandomTermsOfAnySize)
     const std::size_t kind = random() % powers.size();
     const auto [least, most] = powers[kind];
     Terms terms(1 + random() % (trial % 2 == 0 ? 300 : 8));
-    std::ranges::generate(terms, [&] { return random_term(random, least, most); });
+    std::ranges::generate(
+      terms, [&, least = least, most = most] { return random_term(random, least, most); });
     if (trial % 3 == 0)
     {
       terms = cancelled(terms, { random_term(random, least, least) }, random);

@@ -762,6 +762,6 @@ TEST(RealFiles, AreDumps)
   for (const auto& entry : std::filesystem::directory_iterator(path_of("")))
   {
     const bool of_vtk = entry.is_directory() || entry.path().extension() == ".vtk";
-    EXPECT_EQ(granular::is_dump_file(entry.path()), !of_vtk) << entry.path();
+    EXPECT_EQ(granular::is_dump_file(entry.path().string()), !of_vtk) << entry.path();
   }
 }

@@ -55,7 +55,8 @@ std::string gzip(std::string_view content, const GzipOptions& options)
     header.text = 1;
     EXPECT_EQ(deflateSetHeader(&stream, &header), Z_OK);
   }
-  std::string packed(deflateBound(&stream, content.size()) + content.size() / 8 + 4096, '\0');
+  std::string packed(
+    deflateBound(&stream, static_cast<uLong>(content.size())) + content.size() / 8 + 4096, '\0');
   stream.next_out = reinterpret_cast<Bytef*>(packed.data());
   stream.avail_out = static_cast<uInt>(packed.size());
   const std::size_t step = options.flush_every > 0 ? options.flush_every : content.size();

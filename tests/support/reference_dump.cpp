@@ -8,17 +8,13 @@
 
 namespace
 {
-/// A file in memory.
+/// A file without a name.
 class Stream
 {
 public:
-  Stream() { file_ = ::open_memstream(&data_, &size_); }
+  Stream() = default;
   Stream(const Stream&) = delete;
-  ~Stream()
-  {
-    std::fclose(file_);
-    std::free(data_);
-  }
+  ~Stream() { std::fclose(file_); }
 
   std::FILE* file() const { return file_; }
 
@@ -30,14 +26,14 @@ public:
 
   std::string text()
   {
-    std::fflush(file_);
-    return { data_, size_ };
+    std::string text(static_cast<std::size_t>(std::ftell(file_)), '\0');
+    std::rewind(file_);
+    text.resize(std::fread(text.data(), 1, text.size(), file_));
+    return text;
   }
 
 private:
-  char* data_ = nullptr;
-  std::size_t size_ = 0;
-  std::FILE* file_;
+  std::FILE* file_ = std::tmpfile();
 };
 
 /// A row as doubles.
@@ -66,8 +62,8 @@ void write_text(Stream& stream, const ReferenceBox& box, const ReferenceAtoms& a
   const ReferenceForm& form, std::int64_t timestep)
 {
   std::FILE* const file = stream.file();
-  std::fprintf(
-    file, "ITEM: TIMESTEP\n%ld\nITEM: NUMBER OF ATOMS\n%zu\n", timestep, atoms.ids.size());
+  std::fprintf(file, "ITEM: TIMESTEP\n%lld\nITEM: NUMBER OF ATOMS\n%zu\n",
+    static_cast<long long>(timestep), atoms.ids.size());
   std::fprintf(file, "ITEM: BOX BOUNDS %s%s\n", box.tilted ? "xy xz yz " : "", box.boundary);
   const double tilts[] = { box.xy, box.xz, box.yz };
   for (std::size_t k = 0; k < 3; ++k)
@@ -84,7 +80,8 @@ void write_text(Stream& stream, const ReferenceBox& box, const ReferenceAtoms& a
   for (std::size_t row = 0; row < atoms.ids.size(); ++row)
   {
     const std::vector<double> v = row_of(box, atoms, form, row);
-    std::fprintf(file, "%ld %d %g %g %g", atoms.ids[row], atoms.types[row], v[2], v[3], v[4]);
+    std::fprintf(file, "%lld %d %g %g %g", static_cast<long long>(atoms.ids[row]), atoms.types[row],
+      v[2], v[3], v[4]);
     if (form.image)
     {
       std::fprintf(

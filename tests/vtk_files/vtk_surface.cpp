@@ -108,7 +108,8 @@ TEST(VtkSurface, Refusals)
   };
   for (const auto& [text, error] : cases)
   {
-    const std::string got = error_of([&] { read(head + "POINTS 1 float\n0 0 0\n" + text); });
+    const std::string bytes = head + "POINTS 1 float\n0 0 0\n" + text;
+    const std::string got = error_of([&] { read(bytes); });
     EXPECT_NE(got.find(error), std::string::npos) << got;
   }
 }
