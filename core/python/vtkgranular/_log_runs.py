@@ -115,7 +115,7 @@ class LogRun:
         import numpy
 
         if name == "Step":
-            return numpy.array(self.steps)
+            return numpy.array(self.steps, dtype=numpy.int64)
         values = numpy.full(len(self.steps), math.nan)
         if name in self.blocks:
             values[self.blocks[name][0]] = self.blocks[name][1]

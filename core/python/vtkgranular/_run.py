@@ -670,7 +670,8 @@ class _Frames(Sequence[Frame]):
 
 #: Threads that a fork waits for: a child has their locks, and not them.
 _reading_ahead: weakref.WeakSet[threading.Thread] = weakref.WeakSet()
-os.register_at_fork(before=lambda: [thread.join() for thread in list(_reading_ahead) if thread.is_alive()])
+if hasattr(os, "register_at_fork"):  # not on Windows
+    os.register_at_fork(before=lambda: [thread.join() for thread in list(_reading_ahead) if thread.is_alive()])
 
 
 def _read_ahead(frame: Frame, names: list[str], whole: bool) -> None:

@@ -181,7 +181,7 @@ class _TableReader(Lines):
         if at is None:
             self.notes.append((self.lines[0], "expected a column Step or TimeStep, got a table without it, whose rows are numbered"))
         with numpy.errstate(invalid="ignore"):
-            steps = numpy.arange(len(values)) if at is None else values[:, at].astype(numpy.int64)
+            steps = numpy.arange(len(values), dtype=numpy.int64) if at is None else values[:, at].astype(numpy.int64)
         wrong = values[:, at][steps != values[:, at]] if at is not None else ()
         if len(wrong):
             self.fail(f"column {names[at]!r}: expected timesteps, got {wrong[0]}", column=names[at])

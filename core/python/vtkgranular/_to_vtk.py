@@ -39,6 +39,6 @@ def to_vtk(frame: Any, names: Iterable[str]) -> Any:
     to = data.GetCellData() if lines else data.GetPointData()
     for name in names:
         to.AddArray(array(name, frame[name]))
-    for name, value in (("timestep", numpy.array([frame.step])), ("time", numpy.array([frame.time]))):
+    for name, value in (("timestep", numpy.array([frame.step], dtype=numpy.int64)), ("time", numpy.array([frame.time]))):
         data.GetFieldData().AddArray(array(name, value))
     return data

@@ -273,10 +273,11 @@ def fill_voxels(output: Any, subdomains: dict[str, Any], begin: int, end: int, o
     points.SetData(numbers("Points", bounds[corners, :, [0, 1, 2]].transpose(2, 0, 1).reshape(-1, 3)))
     output.SetPoints(points)
     types = numbers(None, numpy.full(end - begin, VTK_VOXEL, dtype=numpy.uint8))
-    voxels = numpy.array([0, 4, 2, 6, 1, 5, 3, 7]) + 8 * numpy.arange(end - begin)[:, None]
+    firsts = 8 * numpy.arange(end - begin + 1, dtype=numpy.int64)
+    voxels = numpy.array([0, 4, 2, 6, 1, 5, 3, 7]) + firsts[:-1, None]
     cells_of = vtkCellArray()
     if end > begin:
-        cells_of.SetData(numbers(None, 8 * numpy.arange(end - begin + 1)), numbers(None, voxels.reshape(-1)))
+        cells_of.SetData(numbers(None, firsts), numbers(None, voxels.reshape(-1)))
     output.SetCells(types, cells_of)
     if "nlocal" in subdomains:
         output.GetCellData().SetScalars(numbers("nlocal", subdomains["nlocal"][begin:end]))

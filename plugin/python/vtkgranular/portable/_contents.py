@@ -74,7 +74,7 @@ class Rows:
     def see_voxels(self, data: Any, place: str = "") -> None:
         """Takes the cells of an unstructured grid as subdomains: lo, hi, nlocal and proc. place: where they go, in errors."""
         count = data.GetNumberOfCells()
-        types = numpy.array([data.GetCellType(i) for i in range(count)], dtype=int)
+        types = numpy.array([data.GetCellType(i) for i in range(count)], dtype=numpy.int64)
         bad = numpy.flatnonzero((types != VTK_VOXEL) & (types != VTK_HEXAHEDRON))
         self.add_points(data)
         points = self.arrays.pop("points")
@@ -299,7 +299,7 @@ def add_lines(data: Any, rows: Any, to: Any) -> None:
     if len(of_points):
         vtk_to_numpy(points.GetData())[:] = values_of(data.GetPoints().GetData()).reshape(-1, 3)[ids[of_points]]
     if len(rows):
-        made.SetData(numbers(None, offsets), numbers(None, numpy.arange(offsets[-1])))
+        made.SetData(numbers(None, offsets), numbers(None, numpy.arange(offsets[-1], dtype=numpy.int64)))
     to.SetPoints(points)
     to.SetLines(made)
 
