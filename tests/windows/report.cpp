@@ -182,10 +182,8 @@ void read(granular_run* run, int table, const std::string& folder)
     if (facts.kind == GRANULAR_KIND_DUMP)
     {
       apply("GranularDecomposition", {}, &frame.content);
-      for (const double weights : { 0, 1, 2 })
-      {
-        apply("GranularEulerAverage", { { "Weights", nullptr, &weights, 1 } }, &frame.content);
-      }
+      apply("GranularEulerAverage", {},
+        &frame.content); // without a kernel: exp and erf are the system's
       for (const granular_coordinates form :
         { GRANULAR_SCALED, GRANULAR_UNWRAPPED, GRANULAR_ABSOLUTE })
       {
@@ -203,7 +201,6 @@ void read(granular_run* run, int table, const std::string& folder)
 int main(int count, char** words)
 {
   apply("GranularDecompositionSource", {}, nullptr);
-  apply("GranularPackingSource", {}, nullptr);
   for (int i = 2; i < count; ++i)
   {
     std::printf("%s\n", words[i]);
