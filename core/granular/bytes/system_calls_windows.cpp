@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "granular/bytes/find_files.h"
 #include "granular/bytes/names_windows.h"
 #include "granular/bytes/system_calls.h"
 

@@ -67,8 +67,8 @@ class Lines:
         raise c.Error(self.where(line) + text, self.path, line, byte, column)
 
     def _read(self) -> Iterator[bytes]:
-        # a pipe must not make it wait
-        with open(self.path, "rb", opener=lambda path, flags: os.open(path, flags | os.O_NONBLOCK)) as file:
+        without_waiting = getattr(os, "O_NONBLOCK", 0)  # for a pipe, of which Windows has none
+        with open(self.path, "rb", opener=lambda path, flags: os.open(path, flags | without_waiting)) as file:
             status, count = os.fstat(file.fileno()), 0
             if not stat.S_ISREG(status.st_mode):
                 raise OSError(f"{c.shown(self.path)}: expected a file, got a device or a pipe")

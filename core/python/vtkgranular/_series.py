@@ -98,6 +98,6 @@ def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]
     entries = [{"name": os.path.relpath(by_step[step], folder), "time": time}
                for step, time in zip(steps, _times(steps, dt))]
     series = {"file-series-version": "1.0", "files": entries}
-    with whole_file(path) as temporary, open(temporary, "w", encoding="utf-8") as out:
+    with whole_file(path) as temporary, open(temporary, "w", encoding="utf-8", newline="\n") as out:
         out.write(json.dumps(series, indent=2) + "\n")
     return path
