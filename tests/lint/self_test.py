@@ -144,13 +144,13 @@ class Layering(unittest.TestCase):
             core__granular__bytes__a_dot_h=
             '#include <vector>\n#include "granular/bytes/b.h"\n#include "granular/text/d.h"\n'
             '// #include "vtkObject.h"\n#include "vtkObject.h"\n#include <unistd.h>\n',
-            core__granular__bytes__byte_source_dot_cpp="#include <unistd.h>\n#include <fcntl.h>\n",
+            core__granular__bytes__byte_source_dot_cpp="#include <unistd.h>\n",
+            core__granular__bytes__calls_posix_dot_cpp="#include <unistd.h>\n#include <sys/file.h>\n#include <windows.h>\n",
+            core__granular__bytes__calls_windows_dot_cpp="#include <windows.h>\n#include <unistd.h>\n",
             core__granular__bytes__byte_source_zstd_dot_cpp="#include <zstd.h>\n#include <zlib.h>\n",
             core__granular__bytes__byte_source_zstd_dot_h="#include <zstd.h>\n",
             core__granular__bytes__inflate_dot_cpp="#include <zlib.h>\n#include <zstd.h>\n#include <isa-l/crc.h>\n",
-            core__granular__bytes__byte_sink_dot_cpp="#include <unistd.h>\n#include <zlib.h>\n",
             core__granular__bytes__compression_dot_cpp="#include <zlib.h>\n#include <fcntl.h>\n",
-            core__granular__memory__block_dot_cpp="#include <sys/mman.h>\n#include <sched.h>\n",
             core__granular__parallel__executor_dot_cpp="#include <sched.h>\n",
             core__granular__formats__dump__read__r_dot_cpp='#include "granular/formats/dump/grammar/f.h"\n'
             '#include "granular/formats/dump/write/w.h"\n#include "r.h"\n',
@@ -163,12 +163,14 @@ class Layering(unittest.TestCase):
             '#include "granular/frames/d.h"\n'), [
                 "core/bonds/b.cpp:2", "core/bonds/granular_bonds.h:2",
                 "core/granular/bytes/a.h:3", "core/granular/bytes/a.h:5", "core/granular/bytes/a.h:6",
-                "core/granular/bytes/byte_sink.cpp:2", "core/granular/bytes/byte_source_zstd.cpp:2",
-                "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/compression.cpp:2",
+                "core/granular/bytes/byte_source.cpp:1", "core/granular/bytes/byte_source_zstd.cpp:2",
+                "core/granular/bytes/byte_source_zstd.h:1", "core/granular/bytes/calls_posix.cpp:3",
+                "core/granular/bytes/calls_windows.cpp:2", "core/granular/bytes/compression.cpp:2",
                 "core/granular/bytes/inflate.cpp:2", "core/granular/dump/d.cpp:1",
                 "core/granular/formats/dump/read/r.cpp:2", "core/granular/formats/dump/read/r.cpp:3",
                 "core/granular/formats/euler/e.cpp:2",
-                "core/granular/formats/restart/r.cpp:1", "core/granular/memory/block.cpp:2", "core/granular/mpi/m.cpp:3"])
+                "core/granular/formats/restart/r.cpp:1", "core/granular/mpi/m.cpp:3",
+                "core/granular/parallel/executor.cpp:1"])
 
     def test_rooms(self):
         files = {f"core__granular__text__a{i}_dot_h": "" for i in range(layering.MOST_FILES)}
