@@ -239,16 +239,32 @@ int remove(const std::string& name) noexcept
   return fail_unless(::DeleteFileW(system_name(name).c_str()));
 }
 
+/// Tries again for a while: a program that looks for viruses opens each new file.
 int rename(const std::string& from, const std::string& to) noexcept
 {
+  constexpr int most = 20;
+  constexpr DWORD pause = 5; // ms
   const std::wstring target = system_name(to);
-  if (::MoveFileExW(system_name(from).c_str(), target.c_str(),
-        MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH))
+  for (int tries = 0;; ++tries)
   {
-    return 0;
+    if (::MoveFileExW(system_name(from).c_str(), target.c_str(),
+          MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH))
+    {
+      return 0;
+    }
+    const int result = fail();
+    const int error = errno;
+    if (error == EACCES && replace_open(from, target))
+    {
+      return 0;
+    }
+    if (error != EACCES || tries == most)
+    {
+      errno = error;
+      return result;
+    }
+    ::Sleep(pause);
   }
-  const int result = fail();
-  return errno == EACCES && replace_open(from, target) ? 0 : result;
 }
 
 std::string follow(const std::string& path)
