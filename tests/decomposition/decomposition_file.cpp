@@ -379,7 +379,7 @@ TEST(DecompositionFile, IsTold)
   for (const auto& entry : std::filesystem::directory_iterator(path_of("decomposition")))
   {
     const bool empty = entry.file_size() == 0; // of a process that leaves writing to another
-    EXPECT_EQ(granular::is_decomposition_file(entry.path()), !empty) << entry.path();
+    EXPECT_EQ(granular::is_decomposition_file(entry.path().string()), !empty) << entry.path();
   }
   EXPECT_TRUE(granular::is_decomposition_file(path_of("decomposition_1000.vtk")));
   EXPECT_TRUE(is_one(two_boxes() + two_boxes()));

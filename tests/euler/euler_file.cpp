@@ -378,12 +378,12 @@ TEST(EulerFile, IsNoDecomposition)
 {
   for (const auto& entry : std::filesystem::directory_iterator(path_of("decomposition")))
   {
-    EXPECT_FALSE(is_euler_file(entry.path())) << entry.path();
+    EXPECT_FALSE(is_euler_file(entry.path().string())) << entry.path();
   }
   EXPECT_FALSE(is_euler_file(path_of("decomposition_1000.vtk")));
   for (const auto& entry : std::filesystem::directory_iterator(path_of("euler")))
   {
-    EXPECT_FALSE(is_decomposition_file(entry.path())) << entry.path();
+    EXPECT_FALSE(is_decomposition_file(entry.path().string())) << entry.path();
   }
   EXPECT_FALSE(is_decomposition_file(path_of("euler_1000.vtk")));
   const Folder folder;

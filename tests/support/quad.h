@@ -8,7 +8,9 @@
 #include <limits>
 
 /// 113 bits: what results are compared with.
-#if __LDBL_MANT_DIG__ == 113
+#if defined(_WIN32)
+#include "../windows/quad.h"
+#elif __LDBL_MANT_DIG__ == 113
 using Quad = long double; // ARM has these, and no others
 #else
 __extension__ using Quad = __float128;

@@ -97,7 +97,7 @@ TEST_F(WindowsFiles, PathsLongerThan260)
   constexpr int deepest = 12;
   for (int i = 1; i <= deepest; ++i)
   {
-    ASSERT_TRUE(::CreateDirectoryA(down(i).c_str(), nullptr));
+    ASSERT_TRUE(::CreateDirectoryW(wide(down(i)).c_str(), nullptr));
   }
   const std::string folder = down(deepest).substr(4) + "/";
   write_file(folder + "old.dump", "1");
@@ -105,10 +105,10 @@ TEST_F(WindowsFiles, PathsLongerThan260)
   const std::vector<std::string> found = find_files({ folder + "*.dump" });
   ASSERT_EQ(found.size(), 1);
   EXPECT_EQ(content(found[0]), "22");
-  EXPECT_TRUE(::DeleteFileA((down(deepest) + "\\old.dump").c_str()));
+  EXPECT_TRUE(::DeleteFileW(wide(down(deepest) + "\\old.dump").c_str()));
   for (int i = deepest; i > 0; --i)
   {
-    EXPECT_TRUE(::RemoveDirectoryA(down(i).c_str()));
+    EXPECT_TRUE(::RemoveDirectoryW(wide(down(i)).c_str()));
   }
 }
 
@@ -205,7 +205,8 @@ TEST_F(WindowsFiles, AProgramThatWritesItself)
 {
   const std::string file = this->write("file", "old");
   granular::NewFile begun(file, granular::Locking::Others);
-  std::ofstream(wide(begun.temporary_name())) << "its own";
+  std::ofstream(wide(begun.temporary_name())) << "not yet";
+  fs::rename(this->write("made", "its own"), wide(begun.temporary_name()));
   begun.finish(true);
   EXPECT_EQ(content(file), "its own");
   EXPECT_EQ(this->names(), std::vector<std::string>{ "file" });

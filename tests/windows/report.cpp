@@ -182,8 +182,8 @@ void read(granular_run* run, int table, const std::string& folder)
     if (facts.kind == GRANULAR_KIND_DUMP)
     {
       apply("GranularDecomposition", {}, &frame.content);
-      apply("GranularEulerAverage", {},
-        &frame.content); // without a kernel: exp and erf are the system's
+      const double none = 0; // no kernel: exp, erf and asin are the system's
+      apply("GranularEulerAverage", { { "Weights", nullptr, &none, 1 } }, &frame.content);
       for (const granular_coordinates form :
         { GRANULAR_SCALED, GRANULAR_UNWRAPPED, GRANULAR_ABSOLUTE })
       {

@@ -85,6 +85,9 @@ int duplicate(int file) noexcept;
 /// Lets the descriptor `to` be another one of the file `from`.
 int duplicate_to(int from, int to) noexcept;
 
+/// Closes a file where nobody could replace it while it is open, on Windows: its descriptor is then another one of `other`.
+int let_replace(int file, int other) noexcept;
+
 /// Succeeds if this user may write a file.
 int may_write(const std::string& name) noexcept;
 

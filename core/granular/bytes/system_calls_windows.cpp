@@ -222,6 +222,11 @@ int duplicate_to(int from, int to) noexcept
   return ::_dup2(from, to);
 }
 
+int let_replace(int file, int other) noexcept
+{
+  return duplicate_to(other, file);
+}
+
 int may_write(const std::string& name) noexcept
 {
   const DWORD attributes = ::GetFileAttributesW(system_name(name).c_str());

@@ -132,18 +132,4 @@ void Executor::for_each_stretch(std::size_t things, std::size_t stretch,
     },
     progress);
 }
-
-void Turns::wait(std::size_t chunk) const noexcept
-{
-  for (std::size_t next = next_.load(); next != chunk; next = next_.load())
-  {
-    next_.wait(next);
-  }
-}
-
-void Turns::pass(std::size_t chunk) noexcept
-{
-  next_.store(chunk + 1);
-  next_.notify_all();
-}
 }

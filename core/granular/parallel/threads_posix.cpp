@@ -22,4 +22,18 @@ int available_cores() noexcept
   }
   return machine_cores();
 }
+
+void Turns::wait(std::size_t chunk) const noexcept
+{
+  for (std::size_t next = next_.load(); next != chunk; next = next_.load())
+  {
+    next_.wait(next);
+  }
+}
+
+void Turns::pass(std::size_t chunk) noexcept
+{
+  next_.store(chunk + 1);
+  next_.notify_all();
+}
 }

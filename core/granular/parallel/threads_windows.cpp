@@ -24,4 +24,19 @@ int available_cores() noexcept
     ? std::popcount(own)
     : machine_cores();
 }
+
+/// atomic::wait of the libstdc++ of MinGW may miss that it is notified.
+void Turns::wait(std::size_t chunk) const noexcept
+{
+  for (std::size_t next = next_.load(); next != chunk; next = next_.load())
+  {
+    ::WaitOnAddress(const_cast<std::atomic<std::size_t>*>(&next_), &next, sizeof next, INFINITE);
+  }
+}
+
+void Turns::pass(std::size_t chunk) noexcept
+{
+  next_.store(chunk + 1);
+  ::WakeByAddressAll(&next_);
+}
 }
