@@ -11,4 +11,13 @@ set(granular_posix_tests
   large_file binary_large # files with holes
   c_misuse) # a thread that ends by pthread_exit
 
-set(granular_posix_cases)
+string(JOIN ":" granular_posix_cases
+  OpenFile.RefusesWhatIsNoFile CInterface.AFileOfWhichTheSystemDoesNotTellIsAnError # std::filesystem makes no links here
+  OpenFile.RefusesAPipeWithoutWaiting RunIndex.ErrorsSayWhatIsWrongWithTheFirstFile # a pipe with a name
+  OpenFile.NoPermission CWriting.FilesThatAProgramWritesItself # permissions by bits
+  OpenFile.AReplacedFileHasAnotherStamp # std::filesystem does not replace an open file
+  Communicator.one_process_opens_a_file Communicator.threads_open_a_file # below a file: Windows says that there is no such folder
+  RunIndex.AFileThatDidNotChangeIsNotRead # std::filesystem sets times to the second
+  EncodeEuler.bytes_of_printf # printf of MinGW prints no sign of NaN
+  WriteRanks.names # folders with * in their names
+  WriteMemory.beside_the_rows) # the most memory that the process had
