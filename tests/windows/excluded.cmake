@@ -2,8 +2,8 @@
 # Tests of the core that Windows does without, each with the reason.
 
 # faults: calls of libc are taken away, and processes killed; consumer: installs for Linux; fuzz, common: their programs compare compilers
-# and instruction sets, and compile the core again.
-set(granular_posix_folders faults/CMakeLists.txt consumer/CMakeLists.txt fuzz/CMakeLists.txt common/CMakeLists.txt)
+# and instruction sets, and compile the core again; docs: Python, which is not there for Windows.
+set(granular_posix_folders faults/CMakeLists.txt consumer/CMakeLists.txt fuzz/CMakeLists.txt common/CMakeLists.txt docs/CMakeLists.txt)
 
 set(granular_posix_tests
   byte_sink locked_file # fork, owners, permissions, limits of a process: tests/windows/files.cpp has what Windows has of that
