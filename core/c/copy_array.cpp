@@ -104,7 +104,7 @@ void copy_array(const granular_frame& frame, const granular_destination& to)
         {
           using To = decltype(made);
           using From = decltype(given);
-          const auto* const from = static_cast<const From*>(array.data);
+          const auto* const from = static_cast<const From*>(array.values->data());
           auto* const target = static_cast<char*>(to.data); // at any address
           for (std::size_t i = 0; i < values; ++i)
           {

@@ -204,37 +204,40 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
   std::ranges::transform(table.type_names, std::back_inserter(type_names), &std::string::c_str);
   if (table.has_lines)
   {
-    arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, table.lines.points.data(),
+    arrays.push_back({ granular_c::ends_name, ValueType::Float64, 6, &table.lines.points,
       find_known("x1", known) });
     length_name = free_name(
       "length", [&](const std::string& name) { return table.schema.find_array(name) >= 0; });
-    arrays.push_back({ length_name.c_str(), ValueType::Float64, 1, table.lines.lengths.data(),
+    arrays.push_back({ length_name.c_str(), ValueType::Float64, 1, &table.lines.lengths,
       find_known("length", known) });
-  }
-  for (std::int64_t line = 0; split && line < table.lines.count; ++line)
-  {
-    const std::int64_t row = table.first_row +
-      (table.lines.rows.empty() ? line : table.lines.rows[static_cast<std::size_t>(line)]);
-    row_parts.push_back(
-      !row_numbers.empty() && row_numbers.back() == row ? row_parts.back() + 1 : 0);
-    row_numbers.push_back(row);
   }
   if (split && table.has_lines)
   {
-    arrays.push_back({ "row", ValueType::Int64, 1, row_numbers.data(), nullptr });
-    arrays.push_back({ "part", ValueType::Int32, 1, row_parts.data(), nullptr });
+    std::vector<std::int64_t> numbers;
+    std::vector<std::int32_t> parts;
+    for (std::int64_t line = 0; line < table.lines.count; ++line)
+    {
+      const std::int64_t row = table.first_row +
+        (table.lines.rows.empty() ? line : table.lines.rows[static_cast<std::size_t>(line)]);
+      parts.push_back(!numbers.empty() && numbers.back() == row ? parts.back() + 1 : 0);
+      numbers.push_back(row);
+    }
+    row_numbers = block_of(numbers);
+    row_parts = block_of(parts);
+    arrays.push_back({ "row", ValueType::Int64, 1, &row_numbers, nullptr });
+    arrays.push_back({ "part", ValueType::Int32, 1, &row_parts, nullptr });
   }
   if (table.points.data() != nullptr)
   {
     const std::size_t values = 3 * static_cast<std::size_t>(table.rows);
     const bool single = values > 0 && table.points.bytes() == values * sizeof(float);
     arrays.push_back({ granular_c::points_name, single ? ValueType::Float32 : ValueType::Float64, 3,
-      table.points.data(), find_known("x", known), {}, granular_c::bounds_of(table.points_range) });
+      &table.points, find_known("x", known), {}, granular_c::bounds_of(table.points_range) });
   }
-  for (const TableArray& array : table.arrays)
+  for (TableArray& array : table.arrays)
   {
     arrays.push_back({ array.info.name.c_str(), array.info.type, array.info.components(),
-      array.block.data(), find_known(array.info.name, known), table.schema.text(array.info),
+      &array.block, find_known(array.info.name, known), table.schema.text(array.info),
       granular_c::bounds_of(array.range) });
     std::ranges::transform(
       array.words, std::back_inserter(arrays.back().word_list), &std::string::c_str);

@@ -26,7 +26,7 @@ struct FrameArray
   const char* name;
   granular::ValueType type;
   int components;
-  const void* data;
+  granular::Block* values;                 ///< empty once they were taken
   const granular::KnownColumn* known;      ///< its unit and meaning; null: not known
   std::string columns = {};                ///< that make it
   std::vector<double> range = {};          ///< as granular.h gives it; empty: not known
@@ -47,7 +47,7 @@ struct granular_frame
   granular_frame& operator=(const granular_frame&) = delete;
 
   const granular_c::RowKind kind;
-  const granular::Table table;
+  granular::Table table;
   granular::Vector3 origin = {};
   double time = 0;               ///< of the run
   granular::Where where;         ///< of its first piece
@@ -58,8 +58,8 @@ struct granular_frame
   std::vector<const char*> type_names;
   std::string length_name =
     "length"; ///< of drawn lines: `length_2` and so on if the file has a column `length`
-  std::vector<std::int64_t> row_numbers;           ///< in the frame, of split lines
-  std::vector<std::int32_t> row_parts;             ///< of the row, from 0
+  granular::Block row_numbers;                     ///< std::int64_t in the frame, of split lines
+  granular::Block row_parts;                       ///< std::int32_t of the row, from 0
   std::shared_ptr<const granular::RunIndex> index; ///< of the run that it was read from
 };
 

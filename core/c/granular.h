@@ -275,8 +275,8 @@ typedef struct granular_request
   granular_progress progress; /* may be null */
   granular_notice notice; void* user; /* notice may be null; user is for both */
   int ranges; /* 1: the ranges of points and arrays are found while they are read, where that costs little; 0 (default) */
+  int take;   /* 1: the arrays are made in memory that granular_take gives away without a copy; 0 (default) */
 } granular_request;
-
 GRANULAR_API void granular_request_init(granular_request* request);
 
 /* Reads a frame into memory of the library. request may be null. Sets *out; release it. */
@@ -310,8 +310,7 @@ typedef struct granular_box
   const char* boundary; /* "pp pp ff"; empty: not known */
 } granular_box;
 
-/* Sets corner and edges from the bounds, or the bounds from corner and edges if has_bounds is 0 and the edges allow it. Each
- * number is rounded once. */
+/* Sets corner and edges from the bounds; if has_bounds is 0 the bounds from corner and edges, where these allow it. Each is rounded once. */
 GRANULAR_API granular_status granular_complete_box(granular_box* box);
 
 /* The header of a frame. */
@@ -365,6 +364,9 @@ typedef struct granular_array
 GRANULAR_API granular_status granular_array_at(const granular_frame* frame, size_t number, granular_array* array);
 GRANULAR_API granular_status granular_array_named(const granular_frame* frame, const char* name, granular_array* array);
 
+/* Gives the memory of an array away, for free() of C; its data are null then. It is a copy unless the frame was read with take. */
+GRANULAR_API granular_status granular_take(granular_frame* frame, size_t number, void** data);
+
 /* A regular grid of cells: its bounds, the edges of a cell, and the cells along each axis. Cell first + (k counts[1] + j) counts[0] + i of
  * the frame is its cell i, j, k. */
 typedef struct granular_grid
@@ -406,7 +408,6 @@ typedef struct granular_format
      (default): 1 for one file, 0 for a file of each frame */
   int durable;
 } granular_format;
-
 GRANULAR_API void granular_format_init(granular_format* format);
 
 /* Begins a file under a temporary name. A name with `*` makes a file for each frame. Two frames of one timestep are an error.
@@ -434,7 +435,6 @@ typedef struct granular_content
   /* null, or the header of the frame that the arrays come from: columns, digits, dialect, label, word for rows, coordinates and origin */
   const granular_frame_header* header;
 } granular_content;
-
 GRANULAR_API void granular_content_init(granular_content* content);
 
 /* Adds a frame from arrays of the caller, which are read where they are. */
@@ -467,8 +467,7 @@ GRANULAR_API const char* granular_file_name(const granular_file* file);
  * durable: 1 or 0, as in granular_format. */
 GRANULAR_API granular_status granular_hold_file(granular_file* file, int durable);
 
-/* Gives files their names, in this order; one that is not held is completed before. If another program has taken a file away, none
- * gets its name. */
+/* Gives files their names in this order; completes those not held. None gets its name if another program has taken a file away. */
 GRANULAR_API granular_status granular_finish_files(granular_file* const* files, size_t count, int durable);
 
 /* Ends a file, and removes what has been written if granular_finish_files has not given it its name. Null does nothing. What a

@@ -54,11 +54,22 @@ granular_status status_of(const granular::Error& error) noexcept
     : GRANULAR_BAD_ARGUMENT; // a choice, a format, a column or a frame
 }
 
+const FrameArray& array_at(const granular_frame& frame, std::size_t number)
+{
+  const std::size_t count = frame.arrays.size();
+  if (number >= count)
+  {
+    throw granular::ArgumentError("expected an array from 0 to " + std::to_string(count) +
+      " exclusive, got " + std::to_string(number));
+  }
+  return frame.arrays[number];
+}
+
 granular_array array_of(const granular_frame& frame, const FrameArray& array)
 {
   return { array.name, static_cast<granular_type>(array.type), array.components, frame.table.rows,
-    array.data, array.word_list.empty() ? nullptr : array.word_list.data(), array.word_list.size(),
-    array.known == nullptr ? "" : array.known->unit.data(),
+    array.values->data(), array.word_list.empty() ? nullptr : array.word_list.data(),
+    array.word_list.size(), array.known == nullptr ? "" : array.known->unit.data(),
     array.known == nullptr ? "" : array.known->meaning.data(), array.columns.c_str(),
     array.range.empty() ? nullptr : array.range.data() };
 }
@@ -351,13 +362,19 @@ extern "C"
     return guarded(
       [&]
       {
-        const std::size_t count = needed(frame, "frame").arrays.size();
-        if (number >= count)
-        {
-          throw granular::ArgumentError("expected an array from 0 to " + std::to_string(count) +
-            " exclusive, got " + std::to_string(number));
-        }
-        needed(array, "array") = array_of(*frame, frame->arrays[number]);
+        const FrameArray& found = array_at(needed(frame, "frame"), number);
+        needed(array, "array") = array_of(*frame, found);
+      });
+  }
+
+  granular_status granular_take(granular_frame* frame, size_t number, void** data)
+  {
+    return guarded(
+      [&]
+      {
+        const FrameArray& array = array_at(needed(frame, "frame"), number);
+        void*& taken_data = needed(data, "data");
+        taken_data = array.values->release_malloc();
       });
   }
 

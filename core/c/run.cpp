@@ -338,7 +338,7 @@ std::unique_ptr<granular_frame> granular_run::read(
   }
   Request request = asked;
   request.points = asked.points && told.has_points;
-  request.pool = pool;
+  request.pool = given.take == 0 ? pool : std::make_shared<BlockPool>(0);
   pool->next_frame();
   std::vector<std::string> names = wanted.names;
   names.push_back(given.arrays == nullptr ? "all" : "named");

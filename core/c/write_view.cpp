@@ -133,15 +133,19 @@ WriteView::WriteView(const granular_frame& frame)
   view.coordinates = frame.table.coordinates;
   view.point_origin = frame.origin;
   view.columns = columns_read(frame.table);
-  const void* const made[] = { frame.table.lines.lengths.data(), frame.row_numbers.data(),
-    frame.row_parts.data() };
+  const Block* const made[] = { &frame.table.lines.lengths, &frame.row_numbers, &frame.row_parts };
   for (const FrameArray& array : frame.arrays)
   {
-    if (array.data != nullptr && std::ranges::find(made, array.data) != std::end(made))
+    if (std::ranges::find(made, array.values) != std::end(made))
     {
       continue; // of lines that are drawn, not of the file
     }
-    this->add(array.name, array.type, array.components, array.data, array.word_list);
+    if (array.values->data() == nullptr && view.rows > 0)
+    {
+      throw ArgumentError(
+        "array '" + std::string(array.name) + "': expected data, got one whose memory was taken");
+    }
+    this->add(array.name, array.type, array.components, array.values->data(), array.word_list);
   }
   this->finish(frame.kind);
 }

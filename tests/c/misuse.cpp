@@ -65,6 +65,8 @@ TEST(CMisuse, NullsAreErrors)
   expect_null_error(granular_header(frame.get(), nullptr), "header");
   expect_null_error(granular_array_at(nullptr, 0, &array), "frame");
   expect_null_error(granular_array_at(frame.get(), 0, nullptr), "array");
+  expect_null_error(granular_take(nullptr, 0, nullptr), "frame");
+  expect_null_error(granular_take(frame.get(), 0, nullptr), "data");
   expect_null_error(granular_array_named(frame.get(), nullptr, &array), "a name");
   expect_null_error(granular_array_named(nullptr, "id", &array), "frame");
   expect_null_error(granular_array_named(frame.get(), "id", nullptr), "array");

@@ -77,8 +77,9 @@ void* allocate(std::size_t bytes, const std::shared_ptr<BlockPool>& pool)
   {
     return nullptr;
   }
-  return bytes < (pool ? least_pooled : least_mapped)
-    ? allocate_small(std::max<std::size_t>(bytes, 1))
+  const bool keeps_none = pool && pool->limit() == 0;
+  return bytes < (pool ? least_pooled : least_mapped) || keeps_none
+    ? allocate_heap(std::max<std::size_t>(bytes, 1))
     : allocate_mapping(bytes, pool);
 }
 }
@@ -232,6 +233,23 @@ void Block::shrink(std::size_t bytes) noexcept
   bytes_ = bytes;
 }
 
+void* Block::release_malloc()
+{
+  if (header_of(data_))
+  {
+    Block copy(bytes_, std::make_shared<BlockPool>(0));
+    std::memcpy(copy.data_, data_, bytes_);
+    std::swap(data_, copy.data_);
+  }
+  void* const made = to_malloc(data_, bytes_);
+  if (!made)
+  {
+    throw std::bad_alloc();
+  }
+  this->release();
+  return made;
+}
+
 void* Block::release() noexcept
 {
   bytes_ = 0;
@@ -243,7 +261,7 @@ void Block::free(void* data) noexcept
   Header* const header = header_of(data);
   if (!header)
   {
-    free_small(data);
+    free_heap(data);
     return;
   }
   const Mapping mapping = header->mapping;

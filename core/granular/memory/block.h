@@ -27,7 +27,8 @@ std::int64_t available_memory() noexcept;
 class BlockPool
 {
 public:
-  /// Keeps at most this many bytes of resident memory; address space does not count.
+  /// Keeps at most this many bytes of resident memory; address space does not count. Blocks of a pool that keeps none are of
+  /// the heap.
   explicit BlockPool(std::size_t limit) noexcept;
 
   BlockPool(const BlockPool&) = delete;
@@ -98,6 +99,9 @@ public:
 
   /// Returns the memory and leaves the block empty. Never null for a block that was allocated.
   void* release() noexcept;
+
+  /// As release(), in memory of malloc: a copy if the block is not of the heap. Throws std::bad_alloc, and leaves the block.
+  void* release_malloc();
 
   /// Frees memory from release(), and from malloc: a VTK array that reallocates with malloc frees both with the same
   /// function.

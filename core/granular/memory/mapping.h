@@ -23,10 +23,13 @@ void keep_bytes(Mapping& mapping, std::size_t bytes) noexcept;
 /// Declares the contents unneeded: if memory is short, the system may take it; otherwise it leaves it in place.
 void forget_bytes(const Mapping& mapping) noexcept;
 
-/// Returns memory with the alignment of a block, at least one byte; null: there is none.
-void* allocate_small(std::size_t bytes) noexcept;
+/// Returns memory of the heap with the alignment of a block, at least one byte; null: there is none.
+void* allocate_heap(std::size_t bytes) noexcept;
 
 /// Frees it, and on POSIX also memory from malloc.
-void free_small(void* data) noexcept;
+void free_heap(void* data) noexcept;
+
+/// Returns it as memory that free() of C frees: itself, or a copy where the heap has another function. Null: there is none for a copy.
+void* to_malloc(void* data, std::size_t bytes) noexcept;
 }
 #endif

@@ -127,15 +127,26 @@ void forget_bytes([[maybe_unused]] const Mapping& mapping) noexcept
 #endif
 }
 
-void* allocate_small(std::size_t bytes) noexcept
+void* allocate_heap(std::size_t bytes) noexcept
 {
   void* data = nullptr;
-  return ::posix_memalign(&data, Block::alignment, bytes) == 0 ? data : nullptr;
+  if (::posix_memalign(&data, is_large(bytes) ? large_page : Block::alignment, bytes) != 0)
+  {
+    return nullptr;
+  }
+  Mapping memory = { data, bytes };
+  expect_bytes(memory, bytes);
+  return data;
 }
 
-void free_small(void* data) noexcept
+void free_heap(void* data) noexcept
 {
   std::free(data);
+}
+
+void* to_malloc(void* data, std::size_t) noexcept
+{
+  return data;
 }
 
 std::int64_t available_memory() noexcept

@@ -2,6 +2,8 @@
 #include "granular/memory/mapping.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 
 #include <malloc.h>
 #include <windows.h>
@@ -59,14 +61,25 @@ void forget_bytes(const Mapping& mapping) noexcept
   ::VirtualAlloc(mapping.base, mapping.resident, MEM_RESET, PAGE_READWRITE);
 }
 
-void* allocate_small(std::size_t bytes) noexcept
+void* allocate_heap(std::size_t bytes) noexcept
 {
   return ::_aligned_malloc(bytes, Block::alignment);
 }
 
-void free_small(void* data) noexcept
+void free_heap(void* data) noexcept
 {
   ::_aligned_free(data);
+}
+
+void* to_malloc(void* data, std::size_t bytes) noexcept
+{
+  void* const copy = std::malloc(std::max<std::size_t>(bytes, 1));
+  if (copy)
+  {
+    std::memcpy(copy, data, bytes);
+    ::_aligned_free(data);
+  }
+  return copy;
 }
 
 std::int64_t available_memory() noexcept

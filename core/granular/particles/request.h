@@ -38,7 +38,7 @@ struct Request
   bool sort_by_id = false;
   std::int64_t stride = 1; ///< at least 1; n keeps id mod n = 0, or every n-th row without ids
   std::array<double, 6> region = { 1, -1, 1, -1, 1, -1 }; ///< xlo xhi ylo yhi zlo zhi, closed, in
-    ///< absolute coordinates; an axis with lo > hi is not restricted
+    ///< absolute coordinates; an axis with lo > hi, or of 0 0, is not restricted
   std::function<bool(std::int64_t)>
     keep_id = {}; ///< particles to keep, by id; called on any thread; empty: all. Without ids none is kept
   PeriodicLines periodic_lines = PeriodicLines::MinimumImage;

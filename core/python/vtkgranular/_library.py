@@ -127,7 +127,7 @@ class ArrayFacts(Structure):
 
 class Request(Structure):
     _fields_ = [("size", c_size_t), ("table", c_int), ("arrays", POINTER(c_char_p)), ("array_count", c_size_t), ("points", c_int),
-                *_fields_of(FRAME), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p), ("ranges", c_int)]
+                *_fields_of(FRAME), ("progress", PROGRESS), ("notice", NOTICE), ("user", c_void_p), ("ranges", c_int), ("take", c_int)]
 
 
 class CBox(Structure):
@@ -196,6 +196,7 @@ _FUNCTIONS = {
     "granular_header": (c_void_p, POINTER(FrameHeader)),
     "granular_grids": (c_void_p, NOTICE, c_void_p, POINTER(Grid), c_size_t, POINTER(c_size_t)),
     "granular_array_at": (c_void_p, c_size_t, POINTER(CArray)),
+    "granular_take": (c_void_p, c_size_t, POINTER(c_void_p)),
     "granular_create": (c_char_p, POINTER(Format), POINTER(c_void_p)),
     "granular_add_input": (c_void_p, c_void_p),
     "granular_write": (c_void_p, POINTER(Content)),

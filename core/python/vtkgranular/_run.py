@@ -808,7 +808,7 @@ class Run(_Frames):
             return self._known[key]
 
     def _read(self, number: int, names: list[str] | None, bonds: bool, request: dict[str, Any], progress: Any, warn: Any = _warn,
-              ranges: bool = False) -> _Handle:
+              for_vtk: bool = False) -> _Handle:
         library = c.library()
         given = c.Request()
         library.granular_request_init(c.byref(given))
@@ -818,7 +818,7 @@ class Run(_Frames):
             kept = c.texts(names or [""])
             given.arrays, given.array_count = kept, len(names)
         given.points = 1 if names is None or "points" in names else 0
-        given.ranges = ranges
+        given.ranges = given.take = for_vtk
         _fill(given, FRAME, request)
         pointer = c.c_void_p()
         with c.Calls(progress, warn, self._ranks) as calls:

@@ -159,8 +159,8 @@ class Reader(Algorithm):
         asked = {**self._given(FRAME), **piece}
         if not points:
             asked.pop("periodic_lines", None)
-        handle = run._read(number, names, bool(table), asked, self._progress, self._told.warn, ranges=True)
-        return Table(handle, lines and asked.get("periodic_lines") == "split", asked.get("precision") == "single")
+        handle = run._read(number, names, bool(table), asked, self._progress, self._told.warn, for_vtk=True)
+        return Table(handle, lines and asked.get("periodic_lines") == "split", asked.get("precision") == "single", takes=True)
 
     def fill(self, run: Run, number: int, piece: dict[str, int], outputs: list[Any]) -> None:
         """Fills the outputs with a frame."""
@@ -266,8 +266,7 @@ class GranularLocalReader(Reader):
         table = self.read(run, number, piece)
         _fill_lines(outputs[0], table)
         rows = self.read(run, number, piece, points=False) if self.values.get("PeriodicLines") == 1 else table
-        for array in rows.arrays.values():
-            outputs[1].GetRowData().AddArray(array)
+        rows.add_to(outputs[1].GetRowData(), rows.arrays.values())
         rows.add_header(outputs[1].GetFieldData())
         rows.add_columns(outputs[1].GetFieldData())
         self.fill_box(run, number, piece, table, outputs[2])
