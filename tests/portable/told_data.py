@@ -28,8 +28,21 @@ def of_cells(cells):
                                         (cells.GetOffsetsArray(), cells.GetConnectivityArray()))]
 
 
+def ranges_of(data, array):
+    """Those that field data find themselves, from VTK 9.3 on; ParaView asks for them."""
+    if array is None or not array.IsA("vtkDataArray") or not hasattr(data, "GetRange"):
+        return None
+    found = []
+    for component in range(-1 if array.GetNumberOfComponents() > 1 else 0, array.GetNumberOfComponents()):
+        for find in (data.GetRange, data.GetFiniteRange):
+            found.append([0.0, 0.0])
+            find(array.GetName(), found[-1], component)
+    return repr(found)
+
+
 def of_fields(data):
-    told = {data.GetAbstractArray(i).GetName(): of_array(data.GetAbstractArray(i)) for i in range(data.GetNumberOfArrays())}
+    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+    told = {array.GetName(): [of_array(array), ranges_of(data, array)] for array in arrays}
     for name in ("GetScalars", "GetVectors", "GetPedigreeIds"):
         active = getattr(data, name, lambda: None)()
         told[name] = active.GetName() if active else None

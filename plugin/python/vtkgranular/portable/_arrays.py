@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import mmap
+import os
 from typing import Any, Iterable
 
 import numpy
@@ -81,6 +82,22 @@ def _tell_ranges(made: Any, known: c.CArray) -> None:
             information.Set(key, ranges[2 * count:], 2)
 
 
+def _prepare_ranges(attributes: Any, made: Any, known: c.CArray) -> None:
+    """Lets point or cell data find the ranges of an array in two tuples that have them: from VTK 9.3 on they keep them for the values that
+    come instead, and do not ask the array."""
+    count = made.GetNumberOfComponents()
+    if not known.range or known.components != count or not hasattr(attributes, "GetRange"):
+        return
+    ranges = numpy.array(known.range[:2 * count + (2 if count > 1 else 0)]).reshape(-1, 2).T
+    lengths = numpy.zeros((2, count))
+    lengths[:, :1] = ranges[:, -1:]
+    for component, tuples in ((0, ranges[:, :count]), *([(-1, lengths)] if count > 1 else [])):
+        _fill(made, tuples)
+        if (vtk_to_numpy(made).reshape(2, count) == tuples).all():  # which floats and integers need not have
+            for find in (attributes.GetRange, attributes.GetFiniteRange):
+                find(made.GetName(), [0.0, 0.0], component)
+
+
 class Table:
     """A frame that was read: its header and its arrays as VTK has them.
 
@@ -89,8 +106,10 @@ class Table:
     arrays  the others, by their names
     """
 
-    def __init__(self, handle: _Handle, split: bool = False, single: bool = False):
-        library, self.header = c.library(), c.FrameHeader()
+    def __init__(self, handle: _Handle, split: bool = False, single: bool = False, takes: bool = False):
+        """takes: the memory of the arrays becomes that of VTK, once they are added to an output; they are empty before."""
+        library, self.header, self._takes = c.library(), c.FrameHeader(), takes
+        self._waiting: dict[Any, tuple[int, c.CArray]] = {}
         library.granular_header(handle, c.byref(self.header))
         self.handle = handle
         self.columns = c.text(self.header.columns).split()
@@ -102,7 +121,7 @@ class Table:
         for number in range(self.header.arrays):
             array = c.CArray()
             library.granular_array_at(handle, number, c.byref(array))
-            made.append((c.text(array.name), self._array(array)))
+            made.append((c.text(array.name), self._array(number, array)))
         self.has_lines, self.has_points = (bool(made) and made[0][0] == name for name in ("ends", "points"))
         if self.has_lines or self.has_points:
             made.pop(0)
@@ -111,34 +130,56 @@ class Table:
             self.drawn = dict(own[1:] + own[:1])
         self.arrays = dict(made)
 
-    def _array(self, array: c.CArray) -> Any:
+    def _array(self, number: int, array: c.CArray) -> Any:
         name = c.text(array.name)
-        values = _to_numpy(self.handle, array)
         if array.type == c.TEXT:
-            return texts(name, values)
+            return texts(name, _to_numpy(self.handle, array))
+        made = _CLASSES[c.TYPES[array.type]]()
         if name in ("ends", "points"):
-            made = self._place(values.reshape(-1, 3), array)
+            self._place(made, number, array)
         else:
-            made = numbers(name, values)
+            made.SetName(name)
             made.SetNumberOfComponents(array.components)
+            self._waiting[made] = number, array
+            if not self._takes:
+                self._give(made)
         columns = c.text(array.columns).split()
         # components of three are axes, and shown as X, Y and Z anyway; others, and those of tensors, keep their names
         if len(columns) > 1 and (len(columns) != 3 or "[" in columns[0] or columns[0] in ("XX", "XY")):
             for i, column in enumerate(columns):
                 made.SetComponentName(i, column)
-        _tell_ranges(made, array)
         return made
 
-    def _place(self, values: Any, array: c.CArray) -> Any:
+    def add_to(self, attributes: Any, arrays: Iterable[Any]) -> None:
+        """Adds arrays to an output."""
+        for array in arrays:
+            attributes.AddArray(array)
+            if array in self._waiting:
+                _prepare_ranges(attributes, array, self._waiting[array][1])
+                self._give(array)
+
+    def _give(self, made: Any) -> None:
+        """Gives an array of VTK its values."""
+        number, array = self._waiting.pop(made)
+        if self._takes and array.rows and os.name == "posix":  # elsewhere VTK may have another free()
+            memory, values = c.c_void_p(), array.rows * array.components
+            c.library().granular_take(self.handle, number, c.byref(memory))
+            made.SetVoidArray(c._memory(memory.value, values * made.GetDataTypeSize()), values, 0, core.vtkAbstractArray.VTK_DATA_ARRAY_FREE)
+        else:
+            _fill(made, _to_numpy(self.handle, array).reshape(-1, made.GetNumberOfComponents()))
+        _tell_ranges(made, array)
+
+    def _place(self, made: Any, number: int, array: c.CArray) -> None:
         """Makes the values the points. VTK finds the bounds of two points that have them, and keeps them for those that come instead."""
-        known = array.range and array.components == 3
-        made = numbers("Points", numpy.array(array.range[:6], dtype=values.dtype).reshape(3, 2).T if known else values)
-        if len(values):
+        made.SetName("Points")
+        made.SetNumberOfComponents(3)
+        if array.rows:
             self.points.SetData(made)  # which forgets the ranges
-        if known:
+        if array.rows and array.range and array.components == 3:
+            _fill(made, numpy.array(array.range[:6]).reshape(3, 2).T)
             self.points.ComputeBounds()
-            _fill(made, values)
-        return made
+        self._waiting[made] = number, array
+        self._give(made)
 
     def add_no_lines(self, split: bool) -> None:
         """Makes the arrays of lines where there are none."""
@@ -257,11 +298,9 @@ def fill_particles(output: Any, table: Table, form: int = 2) -> None:
     rows = output.GetNumberOfPoints()
     if rows and form:
         output.SetVerts(cells(*((rows, 1) if form == 2 else (1, rows))))
-    for name, array in table.arrays.items():
-        if name == "id":
-            output.GetPointData().SetPedigreeIds(array)
-        else:
-            output.GetPointData().AddArray(array)
+    table.add_to(output.GetPointData(), table.arrays.values())
+    if "id" in table.arrays:
+        output.GetPointData().SetPedigreeIds(table.arrays["id"])
 
 
 def fill_voxels(output: Any, subdomains: dict[str, Any], begin: int, end: int, origin: Any = 0) -> None:
@@ -289,5 +328,4 @@ def fill_lines(output: Any, table: Table) -> None:
     """Fills an output with lines and their arrays."""
     output.SetPoints(table.points)
     output.SetLines(cells(output.GetNumberOfPoints() // 2, 2))
-    for array in (*table.arrays.values(), *table.drawn.values()):
-        output.GetCellData().AddArray(array)
+    table.add_to(output.GetCellData(), (*table.arrays.values(), *table.drawn.values()))
