@@ -23,9 +23,10 @@ def chart(path: str | os.PathLike[str], names: str | Iterable[str], dt: float | 
     read = read_log if Series("", [(path, os.path.getsize(path))], [], False).kind == "log" else read_table
     table = read(path, dt)
     lines = [line for name in ([names] if isinstance(names, str) else names) for line in row_names(name, table[name])]
-    script = f"import vtkgranular\nself.GetTableOutput().ShallowCopy(vtkgranular.{read.__name__}({path!r}, dt={dt!r}).to_vtk())"
-    source = simple.ProgrammableSource(registrationName=os.path.basename(path), OutputDataSetType="vtkTable", Script=script,
-                                       PythonPath=repr(os.path.dirname(os.path.dirname(__file__))))
+    folder = os.path.dirname(os.path.dirname(__file__))
+    script = (f"import sys\nif {folder!r} not in sys.path:\n    sys.path.append({folder!r})  # behind ParaView's own\nimport vtkgranular\n"
+              f"self.GetTableOutput().ShallowCopy(vtkgranular.{read.__name__}({path!r}, dt={dt!r}).to_vtk())")
+    source = simple.ProgrammableSource(registrationName=os.path.basename(path), OutputDataSetType="vtkTable", Script=script)
     display = simple.Show(source, view or simple.CreateView("XYChartView"))
     display.UseIndexForXAxis = 0
     display.XArrayName = "time"
