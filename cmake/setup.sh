@@ -146,6 +146,7 @@ granular_set_up()
       ;;
     tests | plugin | benchmarks)
       granular_need_plugin "${granular_test_packages[@]}"
+      ! apt-cache show clang-format-14 >/dev/null 2>&1 || granular_need clang-format-14 # not every suite has it
       granular_configure "${tests[@]}"
       case "$1" in
         tests) granular_make ;;
