@@ -364,7 +364,7 @@ typedef struct granular_array
 GRANULAR_API granular_status granular_array_at(const granular_frame* frame, size_t number, granular_array* array);
 GRANULAR_API granular_status granular_array_named(const granular_frame* frame, const char* name, granular_array* array);
 
-/* Gives the memory of an array away, for free() of C; its data are null then. It is a copy unless the frame was read with take. */
+/* Gives the memory of an array away, for free() of C (Windows: of msvcrt). Its data are null then. A copy unless read with take. */
 GRANULAR_API granular_status granular_take(granular_frame* frame, size_t number, void** data);
 
 /* A regular grid of cells: its bounds, the edges of a cell, and the cells along each axis. Cell first + (k counts[1] + j) counts[0] + i of
