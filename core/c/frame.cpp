@@ -213,17 +213,18 @@ granular_frame::granular_frame(granular_c::RowKind rows_kind, Table&& taken,
   }
   if (split && table.has_lines)
   {
-    std::vector<std::int64_t> numbers;
-    std::vector<std::int32_t> parts;
-    for (std::int64_t line = 0; line < table.lines.count; ++line)
+    const std::vector<std::int64_t>& rows = table.lines.rows;
+    const auto count = static_cast<std::size_t>(table.lines.count);
+    row_numbers = Block(count * sizeof(std::int64_t), table.lines.points.pool());
+    row_parts = Block(count * sizeof(std::int32_t), table.lines.points.pool());
+    auto* const numbers = static_cast<std::int64_t*>(row_numbers.data());
+    auto* const parts = static_cast<std::int32_t*>(row_parts.data());
+    for (std::size_t line = 0; line < count; ++line)
     {
-      const std::int64_t row = table.first_row +
-        (table.lines.rows.empty() ? line : table.lines.rows[static_cast<std::size_t>(line)]);
-      parts.push_back(!numbers.empty() && numbers.back() == row ? parts.back() + 1 : 0);
-      numbers.push_back(row);
+      numbers[line] =
+        table.first_row + (rows.empty() ? static_cast<std::int64_t>(line) : rows[line]);
+      parts[line] = line > 0 && numbers[line - 1] == numbers[line] ? parts[line - 1] + 1 : 0;
     }
-    row_numbers = block_of(numbers);
-    row_parts = block_of(parts);
     arrays.push_back({ "row", ValueType::Int64, 1, &row_numbers, nullptr });
     arrays.push_back({ "part", ValueType::Int32, 1, &row_parts, nullptr });
   }

@@ -275,7 +275,7 @@ typedef struct granular_request
   granular_progress progress; /* may be null */
   granular_notice notice; void* user; /* notice may be null; user is for both */
   int ranges; /* 1: the ranges of points and arrays are found while they are read, where that costs little; 0 (default) */
-  int take;   /* 1: the arrays are made in memory that granular_take gives away without a copy; 0 (default) */
+  int take;   /* 1: arrays are made in memory that granular_take can give away, which copies only sorted rows; 0 (default) */
 } granular_request;
 GRANULAR_API void granular_request_init(granular_request* request);
 
@@ -364,7 +364,7 @@ typedef struct granular_array
 GRANULAR_API granular_status granular_array_at(const granular_frame* frame, size_t number, granular_array* array);
 GRANULAR_API granular_status granular_array_named(const granular_frame* frame, const char* name, granular_array* array);
 
-/* Gives the memory of an array away, for free() of C (Windows: of msvcrt). Its data are null then. A copy unless read with take. */
+/* Gives the memory of an array away, for free() of C (Windows: of msvcrt). Its data are null then. Without take it gives a copy. */
 GRANULAR_API granular_status granular_take(granular_frame* frame, size_t number, void** data);
 
 /* A regular grid of cells: its bounds, the edges of a cell, and the cells along each axis. Cell first + (k counts[1] + j) counts[0] + i of

@@ -718,6 +718,9 @@ TEST(CInterface, AnArrayIsTaken)
       granular_array_at(frame.get(), i, &array);
       EXPECT_EQ(array.data, nullptr);
     }
+    void* data = frame.get();
+    EXPECT_EQ(granular_take(frame.get(), 1, &data), GRANULAR_BAD_ARGUMENT);
+    EXPECT_EQ(data, nullptr);
     const std::string path = std::string(GRANULAR_OUTPUT) + "/taken.dump";
     granular_writer* writer = nullptr;
     granular_create(path.c_str(), nullptr, &writer);

@@ -136,6 +136,7 @@ def reads_appended_data():
 # ---- and with others behind (ParaView ends on several ranks, whatever is shown, where floats are too coarse for the box)
 translucent = []
 can_show = reads_appended_data()
+assert can_show or GetParaViewVersion().GetVersion() == 5.11
 if not can_show:
     print("left out: translucent particles, because this ParaView cannot read what its ranks send each other")
 for name, corner in (("near", origin), ("thousand", THOUSAND)) if can_show else ():

@@ -2,6 +2,9 @@
 """All that there is to compare of a data object, as values of JSON."""
 import hashlib
 
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
 
 def digest(values):
     return hashlib.sha256(values).hexdigest()[:16]
@@ -37,6 +40,11 @@ def ranges_of(data, array):
         for find in (data.GetRange, data.GetFiniteRange):
             found.append([0.0, 0.0])
             find(array.GetName(), found[-1], component)
+    values = vtk_to_numpy(array).reshape(-1, array.GetNumberOfComponents()).astype(float)
+    if len(values) and numpy.isfinite(values).all():
+        sizes = [numpy.sqrt((values**2).sum(axis=1))] if values.shape[1] > 1 else []
+        expected = [[part.min(), part.max()] for part in (*sizes, *values.T) for _ in range(2)]
+        assert numpy.allclose(found, expected, rtol=1e-14, atol=0), (array.GetName(), found, expected)
     return repr(found)
 
 

@@ -165,7 +165,13 @@ void NewFile::create(Locking locking)
     name_ += LockedFile::data_ending;
     os::remove(name_); // nobody else may have it: the lock is this object's
     file_ = os::open(name_, os::Opening::Create, mode);
-    check(file_ < 0 || os::let_replace(file_, locked_->descriptor()) < 0 ? errno : 0, path_);
+    check(file_ < 0 ? errno : 0, path_);
+    if (os::let_replace(file_, locked_->descriptor()) < 0)
+    {
+      const int error = errno;
+      os::close(std::exchange(file_, -1));
+      fail(path_, error);
+    }
   }
 }
 

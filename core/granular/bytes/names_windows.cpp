@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -87,7 +88,8 @@ std::string narrow(std::wstring_view text)
   return narrow;
 }
 
-std::wstring system_name(const std::string& name)
+std::wstring system_name(const std::string& name) noexcept
+try
 {
   constexpr std::size_t longest = 240; // a folder's
   const std::wstring full = full_name(name);
@@ -95,8 +97,13 @@ std::wstring system_name(const std::string& name)
     : full.starts_with(L"\\\\")                                ? L"\\\\?\\UNC" + full.substr(1)
                                                                : L"\\\\?\\" + full;
 }
+catch (const std::bad_alloc&)
+{
+  return {};
+}
 
 void remove_all(const std::string& folder, const std::string& begin) noexcept
+try
 {
   find_names(folder + "/" + begin + "*",
     [&](const std::string& name)
@@ -104,6 +111,10 @@ void remove_all(const std::string& folder, const std::string& begin) noexcept
       std::error_code ignored;
       std::filesystem::remove_all(system_name(folder + "/" + name), ignored);
     });
+}
+catch (const std::bad_alloc&)
+{
+  // small files stay
 }
 
 int list(const std::string& folder)

@@ -85,7 +85,7 @@ int duplicate(int file) noexcept;
 /// Lets the descriptor `to` be another one of the file `from`.
 int duplicate_to(int from, int to) noexcept;
 
-/// Closes a file where nobody could replace it while it is open, on Windows: its descriptor is then another one of `other`.
+/// Windows: closes the file, because an open file cannot be replaced, and makes its descriptor a duplicate of `other`.
 int let_replace(int file, int other) noexcept;
 
 /// Succeeds if this user may write a file.
@@ -93,7 +93,7 @@ int may_write(const std::string& name) noexcept;
 
 int remove(const std::string& name) noexcept;
 
-/// Replaces a file `to`, at once.
+/// Renames a file, and replaces `to` atomically if it is there.
 int rename(const std::string& from, const std::string& to) noexcept;
 
 /// Removes the files and folders in a folder whose names begin like this, as far as the system tells them.

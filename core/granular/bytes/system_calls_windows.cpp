@@ -77,8 +77,19 @@ OVERLAPPED at_offset(std::int64_t offset) noexcept
 
 constexpr std::size_t most_bytes = std::size_t{ 1 } << 30; // of a call
 
+/// A duplicate is passed on to programs that are started, unless told otherwise.
+int keep_from_children(int file) noexcept
+{
+  if (file >= 0)
+  {
+    ::SetHandleInformation(handle_of(file), HANDLE_FLAG_INHERIT, 0);
+  }
+  return file;
+}
+
 /// Replaces a file that somebody has opened. Windows 10 can.
-bool replace_open(const std::string& from, const std::wstring& to)
+bool replace_open(const std::string& from, const std::wstring& to) noexcept
+try
 {
   const HANDLE handle = open_handle(from, DELETE | SYNCHRONIZE, OPEN_EXISTING, 0);
   const std::size_t bytes = to.size() * sizeof(wchar_t);
@@ -96,7 +107,10 @@ bool replace_open(const std::string& from, const std::wstring& to)
   ::CloseHandle(handle);
   return done;
 }
-
+catch (const std::bad_alloc&)
+{
+  return false;
+}
 }
 
 int open(const std::string& name, Opening how, unsigned) noexcept
@@ -214,12 +228,12 @@ int set_permissions(int, unsigned) noexcept
 
 int duplicate(int file) noexcept
 {
-  return ::_dup(file);
+  return keep_from_children(::_dup(file));
 }
 
 int duplicate_to(int from, int to) noexcept
 {
-  return ::_dup2(from, to);
+  return ::_dup2(from, to) == 0 ? keep_from_children(to) : -1;
 }
 
 int let_replace(int file, int other) noexcept

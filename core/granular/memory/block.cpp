@@ -230,6 +230,10 @@ void Block::shrink(std::size_t bytes) noexcept
   {
     keep_bytes(header->mapping, sizeof(Header) + bytes);
   }
+  else if (bytes_ >= least_mapped)
+  {
+    keep_heap(data_, bytes, bytes_);
+  }
   bytes_ = bytes;
 }
 

@@ -29,7 +29,10 @@ void* allocate_heap(std::size_t bytes) noexcept;
 /// Frees it, and on POSIX also memory from malloc.
 void free_heap(void* data) noexcept;
 
-/// Returns it as memory that free() of C frees: itself, or a copy where the heap has another function. Null: there is none for a copy.
+/// Gives the system what is behind the first bytes of memory of the heap that has `all` of them, where whole pages are free.
+void keep_heap(void* data, std::size_t bytes, std::size_t all) noexcept;
+
+/// Returns `data` as memory for free(): `data` itself on POSIX, a copy on Windows. Null: there is no memory for the copy.
 void* to_malloc(void* data, std::size_t bytes) noexcept;
 }
 #endif

@@ -2,6 +2,7 @@
 #include "granular/memory/mapping.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -142,6 +143,18 @@ void* allocate_heap(std::size_t bytes) noexcept
 void free_heap(void* data) noexcept
 {
   std::free(data);
+}
+
+/// malloc keeps nothing of its own inside.
+void keep_heap(void* data, std::size_t bytes, std::size_t all) noexcept
+{
+  const auto begin = reinterpret_cast<std::uintptr_t>(data);
+  const std::size_t from = round_up(begin + bytes, page);
+  const std::size_t to = round_down(begin + all, page);
+  if (from < to)
+  {
+    advise({ data, all, all }, from - begin, to - begin, MADV_DONTNEED);
+  }
 }
 
 void* to_malloc(void* data, std::size_t) noexcept

@@ -71,6 +71,11 @@ void free_heap(void* data) noexcept
   ::_aligned_free(data);
 }
 
+void keep_heap(void*, std::size_t, std::size_t) noexcept
+{
+  // the heap has no such function
+}
+
 void* to_malloc(void* data, std::size_t bytes) noexcept
 {
   void* const copy = std::malloc(std::max<std::size_t>(bytes, 1));

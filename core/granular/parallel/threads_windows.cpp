@@ -25,7 +25,7 @@ int available_cores() noexcept
     : machine_cores();
 }
 
-/// atomic::wait of the libstdc++ of MinGW may miss that it is notified.
+/// atomic::wait of the libstdc++ of MinGW may miss a notification.
 void Turns::wait(std::size_t chunk) const noexcept
 {
   for (std::size_t next = next_.load(); next != chunk; next = next_.load())

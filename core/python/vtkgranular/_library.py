@@ -22,6 +22,9 @@ ALL_GATHER = CFUNCTYPE(c_int, c_void_p, c_void_p, c_size_t, c_void_p)
 TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64", "int32")
 TEXT = 10
 
+#: Windows has several libraries of C, each with a free() of its own.
+IS_HEAP_SHARED = os.name == "posix"
+
 
 class Error(RuntimeError):
     """An error of a file, or of what was asked of it.

@@ -818,7 +818,7 @@ class Run(_Frames):
             kept = c.texts(names or [""])
             given.arrays, given.array_count = kept, len(names)
         given.points = 1 if names is None or "points" in names else 0
-        given.ranges = given.take = for_vtk
+        given.ranges, given.take = for_vtk, for_vtk and c.IS_HEAP_SHARED
         _fill(given, FRAME, request)
         pointer = c.c_void_p()
         with c.Calls(progress, warn, self._ranks) as calls:

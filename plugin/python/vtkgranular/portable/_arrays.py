@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import functools
 import mmap
-import os
 from typing import Any, Iterable
 
 import numpy
@@ -83,8 +82,8 @@ def _tell_ranges(made: Any, known: c.CArray) -> None:
 
 
 def _prepare_ranges(attributes: Any, made: Any, known: c.CArray) -> None:
-    """Lets point or cell data find the ranges of an array in two tuples that have them: from VTK 9.3 on they keep them for the values that
-    come instead, and do not ask the array."""
+    """Fills the array with two tuples that have its ranges, so that point or cell data cache them. From VTK 9.3 on they do not ask the array,
+    and the cache stays valid when the values replace the tuples."""
     count = made.GetNumberOfComponents()
     if not known.range or known.components != count or not hasattr(attributes, "GetRange"):
         return
@@ -92,8 +91,9 @@ def _prepare_ranges(attributes: Any, made: Any, known: c.CArray) -> None:
     lengths = numpy.zeros((2, count))
     lengths[:, :1] = ranges[:, -1:]
     for component, tuples in ((0, ranges[:, :count]), *([(-1, lengths)] if count > 1 else [])):
-        _fill(made, tuples)
-        if (vtk_to_numpy(made).reshape(2, count) == tuples).all():  # which floats and integers need not have
+        with numpy.errstate(invalid="ignore"):
+            _fill(made, tuples)
+        if (vtk_to_numpy(made).reshape(2, count) == tuples).all():  # a float or an integer may not hold these numbers exactly
             for find in (attributes.GetRange, attributes.GetFiniteRange):
                 find(made.GetName(), [0.0, 0.0], component)
 
@@ -107,9 +107,9 @@ class Table:
     """
 
     def __init__(self, handle: _Handle, split: bool = False, single: bool = False, takes: bool = False):
-        """takes: the memory of the arrays becomes that of VTK, once they are added to an output; they are empty before."""
+        """takes: VTK gets the memory of an array when `add_to` adds the array, which is empty until then."""
         library, self.header, self._takes = c.library(), c.FrameHeader(), takes
-        self._waiting: dict[Any, tuple[int, c.CArray]] = {}
+        self._waiting: dict[int, tuple[Any, int, c.CArray]] = {}  # by id(): from VTK 9.7 on, arrays compare their values
         library.granular_header(handle, c.byref(self.header))
         self.handle = handle
         self.columns = c.text(self.header.columns).split()
@@ -140,7 +140,7 @@ class Table:
         else:
             made.SetName(name)
             made.SetNumberOfComponents(array.components)
-            self._waiting[made] = number, array
+            self._waiting[id(made)] = made, number, array
             if not self._takes:
                 self._give(made)
         columns = c.text(array.columns).split()
@@ -154,14 +154,14 @@ class Table:
         """Adds arrays to an output."""
         for array in arrays:
             attributes.AddArray(array)
-            if array in self._waiting:
-                _prepare_ranges(attributes, array, self._waiting[array][1])
+            if id(array) in self._waiting:
+                _prepare_ranges(attributes, array, self._waiting[id(array)][2])
                 self._give(array)
 
     def _give(self, made: Any) -> None:
         """Gives an array of VTK its values."""
-        number, array = self._waiting.pop(made)
-        if self._takes and array.rows and os.name == "posix":  # elsewhere VTK may have another free()
+        _, number, array = self._waiting.pop(id(made))
+        if self._takes and array.rows and c.IS_HEAP_SHARED:
             memory, values = c.c_void_p(), array.rows * array.components
             c.library().granular_take(self.handle, number, c.byref(memory))
             made.SetVoidArray(c._memory(memory.value, values * made.GetDataTypeSize()), values, 0, core.vtkAbstractArray.VTK_DATA_ARRAY_FREE)
@@ -178,7 +178,7 @@ class Table:
         if array.rows and array.range and array.components == 3:
             _fill(made, numpy.array(array.range[:6]).reshape(3, 2).T)
             self.points.ComputeBounds()
-        self._waiting[made] = number, array
+        self._waiting[id(made)] = made, number, array
         self._give(made)
 
     def add_no_lines(self, split: bool) -> None:
