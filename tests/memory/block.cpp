@@ -174,9 +174,11 @@ TEST(Block, GivesBackWhatIsBehindItsNewEnd)
   {
     GTEST_SKIP() << "the system does not say what is in memory";
   }
-  for (const std::size_t size : { 9 * mib, 40 * mib })
+  const auto heap = std::make_shared<granular::BlockPool>(0);
+  for (const auto& [size, pool] : std::vector<std::pair<std::size_t, decltype(heap)>>{
+         { 9 * mib, nullptr }, { 40 * mib, nullptr }, { 9 * mib, heap }, { 40 * mib, heap } })
   {
-    Block block(size);
+    Block block(size, pool);
     std::memset(block.data(), 1, size);
     const void* const all = block.data();
     const std::int64_t before = resident_bytes(all, size);
