@@ -145,6 +145,15 @@ const FrameArray& find_array(const granular_frame& frame, std::string_view name)
   return *found;
 }
 
+void expect_values(const FrameArray& array)
+{
+  if (array.values->data() == nullptr)
+  {
+    throw ArgumentError(
+      "array '" + std::string(array.name) + "': expected data, got one whose memory was taken");
+  }
+}
+
 Box make_box(const granular_box& box)
 {
   std::array<Vector3, 3> edges;

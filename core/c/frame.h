@@ -81,6 +81,9 @@ void repeat_rows(granular::Table& table);
 /// Returns an array by its name. Throws granular::ArgumentError that lists those there are.
 const FrameArray& find_array(const granular_frame& frame, std::string_view name);
 
+/// Throws granular::ArgumentError if the memory of an array was taken.
+void expect_values(const FrameArray& array);
+
 /// Copies an array into memory of the caller. Throws granular::ArgumentError if there is too little room, or a number does not fit the
 /// type.
 void copy_array(const granular_frame& frame, const granular_destination& to);

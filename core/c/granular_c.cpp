@@ -375,11 +375,7 @@ extern "C"
         const FrameArray& array = array_at(needed(frame, "frame"), number);
         void*& taken_data = needed(data, "data");
         taken_data = nullptr;
-        if (array.values->data() == nullptr)
-        {
-          throw granular::ArgumentError("array '" + std::string(array.name) +
-            "': expected data, got one whose memory was taken");
-        }
+        expect_values(array);
         taken_data = array.values->release_malloc();
       });
   }

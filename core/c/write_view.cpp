@@ -140,10 +140,9 @@ WriteView::WriteView(const granular_frame& frame)
     {
       continue; // of lines that are drawn, not of the file
     }
-    if (array.values->data() == nullptr && view.rows > 0)
+    if (view.rows > 0)
     {
-      throw ArgumentError(
-        "array '" + std::string(array.name) + "': expected data, got one whose memory was taken");
+      expect_values(array);
     }
     this->add(array.name, array.type, array.components, array.values->data(), array.word_list);
   }

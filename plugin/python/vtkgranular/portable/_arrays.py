@@ -62,12 +62,17 @@ def texts(name: str, values: Iterable[str]) -> Any:
     return made
 
 
+def _ranges_of(made: Any, known: c.CArray) -> list[float]:
+    """Returns the ranges of the components of an array and, of several, that of their lengths; none if they are not known."""
+    count = made.GetNumberOfComponents()
+    return known.range[:2 * count + (2 if count > 1 else 0)] if known.range and known.components == count else []
+
+
 def _tell_ranges(made: Any, known: c.CArray) -> None:
     """Tells an array the ranges of its components and, of several, that of their lengths, as VTK would find them, if they are known."""
-    count = made.GetNumberOfComponents()
-    if not known.range or known.components != count:
+    count, ranges = made.GetNumberOfComponents(), _ranges_of(made, known)
+    if not ranges:
         return
-    ranges = known.range[:2 * count + (2 if count > 1 else 0)]
     information = made.GetInformation()
     for key in (made.PER_COMPONENT(), made.PER_FINITE_COMPONENT()):
         vector = core.vtkInformationVector()
@@ -84,10 +89,9 @@ def _tell_ranges(made: Any, known: c.CArray) -> None:
 def _prepare_ranges(attributes: Any, made: Any, known: c.CArray) -> None:
     """Fills the array with two tuples that have its ranges, so that point or cell data cache them. From VTK 9.3 on they do not ask the array,
     and the cache stays valid when the values replace the tuples."""
-    count = made.GetNumberOfComponents()
-    if not known.range or known.components != count or not hasattr(attributes, "GetRange"):
+    count, ranges = made.GetNumberOfComponents(), numpy.array(_ranges_of(made, known)).reshape(-1, 2).T
+    if not ranges.size or not hasattr(attributes, "GetRange"):
         return
-    ranges = numpy.array(known.range[:2 * count + (2 if count > 1 else 0)]).reshape(-1, 2).T
     lengths = numpy.zeros((2, count))
     lengths[:, :1] = ranges[:, -1:]
     for component, tuples in ((0, ranges[:, :count]), *([(-1, lengths)] if count > 1 else [])):
@@ -140,9 +144,10 @@ class Table:
         else:
             made.SetName(name)
             made.SetNumberOfComponents(array.components)
-            self._waiting[id(made)] = made, number, array
-            if not self._takes:
-                self._give(made)
+            if self._takes:
+                self._waiting[id(made)] = made, number, array
+            else:
+                self._give(made, number, array)
         columns = c.text(array.columns).split()
         # components of three are axes, and shown as X, Y and Z anyway; others, and those of tensors, keep their names
         if len(columns) > 1 and (len(columns) != 3 or "[" in columns[0] or columns[0] in ("XX", "XY")):
@@ -155,12 +160,12 @@ class Table:
         for array in arrays:
             attributes.AddArray(array)
             if id(array) in self._waiting:
-                _prepare_ranges(attributes, array, self._waiting[id(array)][2])
-                self._give(array)
+                _, number, known = self._waiting.pop(id(array))
+                _prepare_ranges(attributes, array, known)
+                self._give(array, number, known)
 
-    def _give(self, made: Any) -> None:
+    def _give(self, made: Any, number: int, array: c.CArray) -> None:
         """Gives an array of VTK its values."""
-        _, number, array = self._waiting.pop(id(made))
         if self._takes and array.rows and c.IS_HEAP_SHARED:
             memory, values = c.c_void_p(), array.rows * array.components
             c.library().granular_take(self.handle, number, c.byref(memory))
@@ -178,8 +183,7 @@ class Table:
         if array.rows and array.range and array.components == 3:
             _fill(made, numpy.array(array.range[:6]).reshape(3, 2).T)
             self.points.ComputeBounds()
-        self._waiting[id(made)] = made, number, array
-        self._give(made)
+        self._give(made, number, array)
 
     def add_no_lines(self, split: bool) -> None:
         """Makes the arrays of lines where there are none."""
