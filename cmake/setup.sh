@@ -18,6 +18,10 @@ granular_test_packages=(binutils gfortran libbenchmark-dev libgtest-dev locales 
 granular_site_packages=(chromium doxygen mkdocs-material) # for packaging/site and its test, which is skipped without
 granular_fuzz_packages=(clang libclang-rt-dev llvm)
 
+# Warnings are errors on Debian 12, whose compiler is known; a newer one may have new warnings. GRANULAR_STRICT=ON or OFF in the environment
+# says otherwise.
+granular_strict="-DGRANULAR_STRICT=${GRANULAR_STRICT:-$(grep -qsx 'VERSION_CODENAME=bookworm' /etc/os-release && echo ON || echo OFF)}"
+
 granular_say()
 {
   printf -- '-- %s\n' "$*" >&2
@@ -131,17 +135,15 @@ granular_make()
 }
 
 # granular_set_up samples|tests|plugin|benchmarks|vtk-samples|vtk|core-only|asan|tsan|damaged|fuzz|fuzz-coverage: from a bare Debian to a finished
-# build. The first four share one; for samples the tests are not even configured, unless they were before. Warnings are errors where
-# GRANULAR_STRICT=ON is in the environment: a compiler that is newer than ours may have new ones.
+# build. The first four share one; for samples the tests are not even configured, unless they were before.
 granular_set_up()
 {
-  local strict="-DGRANULAR_STRICT=${GRANULAR_STRICT:-OFF}"
-  local tests=(release "$strict" -DBUILD_TESTING=ON -DGRANULAR_BUILD_BENCH=ON)
+  local tests=(release "$granular_strict" -DBUILD_TESTING=ON -DGRANULAR_BUILD_BENCH=ON)
   case "$1" in
     samples)
       granular_need_plugin
       granular_is_configured "${tests[@]}" ||
-        granular_configure release "$strict" -DBUILD_TESTING=OFF
+        granular_configure release "$granular_strict" -DBUILD_TESTING=OFF
       granular_make core/all plugin/all plugin/python/all
       ;;
     tests | plugin | benchmarks)
@@ -156,25 +158,25 @@ granular_set_up()
       ;;
     vtk-samples)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}"
-      granular_is_configured vtk "$strict" -DBUILD_TESTING=ON ||
-        granular_configure vtk "$strict" -DBUILD_TESTING=OFF
+      granular_is_configured vtk "$granular_strict" -DBUILD_TESTING=ON ||
+        granular_configure vtk "$granular_strict" -DBUILD_TESTING=OFF
       granular_make core/all vtkGranular plugin/python/all
       ;;
     vtk)
       granular_need "${granular_core_packages[@]}" "${granular_vtk_packages[@]}" "${granular_test_packages[@]}"
-      granular_configure vtk "$strict" -DBUILD_TESTING=ON
+      granular_configure vtk "$granular_strict" -DBUILD_TESTING=ON
       granular_make
       ;;
     core-only | asan | tsan | damaged)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}"
       case "$1" in
-        damaged) granular_configure asan "$strict" && granular_make tests_fuzz ;;
-        *) granular_configure "$1" "$strict" && granular_make ;;
+        damaged) granular_configure asan "$granular_strict" && granular_make tests_fuzz ;;
+        *) granular_configure "$1" "$granular_strict" && granular_make ;;
       esac
       ;;
     fuzz | fuzz-coverage)
       granular_need "${granular_core_packages[@]}" "${granular_test_packages[@]}" "${granular_fuzz_packages[@]}"
-      granular_configure "$1" "$strict"
+      granular_configure "$1"
       granular_make tests_fuzz
       ;;
   esac
