@@ -202,7 +202,8 @@ def main() -> None:
     from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
     warnings.showwarning = lambda message, *_: print(message, file=sys.stderr)  # type: ignore[assignment]
-    given = json.load(sys.stdin)
+    with open(0, closefd=False) as stream:  # pvpython of ParaView 5.13 puts something in the place of sys.stdin that cannot be read
+        given = json.load(stream)
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)
     window.SetOffScreenRendering(True)
