@@ -5,6 +5,7 @@ import gzip
 import os
 
 import numpy
+import paraview.simple  # noqa: F401 - connects, which _find_reader needs
 import plain_local
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from said import said_by
