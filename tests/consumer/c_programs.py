@@ -25,7 +25,7 @@ for line, frame in zip(lines, frames):
     energy = (0.5 * mass * (v ** 2).sum(axis=1)).sum() if len(mass) else 0
     assert int(line[1]) == len(mass) and abs(float(line[2]) - energy) <= 1e-11 * energy, (line, energy)
 done = subprocess.run([os.path.join(folder, "energy"), "no_such.dump"], capture_output=True, text=True)
-assert done.returncode == 1 and done.stderr == "no_such.dump: no file fits the pattern\n", done.stderr
+assert done.returncode == 1 and done.stderr == "no_such.dump: no such file or folder\n", done.stderr
 
 run("falling", "falling.dump")
 fallen = plain_dump.read("falling.dump")

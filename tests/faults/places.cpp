@@ -65,8 +65,11 @@ std::map<std::string, std::string> no_files(const std::string& folder)
 {
   const std::string device = "expected a file, got a device or a pipe";
   const std::string directory = "expected a file, got a directory: name the files in it";
+  const std::string missing = "no such file or folder";
+  const std::string unfit = "no file fits the pattern";
   ::mkfifo((folder + "/pipe").c_str(), 0644);
   fs::create_directory(folder + "/folder");
+  fs::create_directory(folder + "/case[1]");
   const std::pair<const char*, const char*> links[] = { { "pipe", "to_pipe" },
     { "folder", "to_folder" }, { "/dev/zero", "to_device" }, { "loop", "loop" },
     { "none", "dangling" } };
@@ -89,8 +92,11 @@ std::map<std::string, std::string> no_files(const std::string& folder)
     { folder + "/dangling", "cannot open: No such file or directory" },
     { "/proc/self/status",
       "expected a file of a known size, got one of the system's, as in /proc" },
-    { folder + "/missing", "no file fits the pattern" },
-    { folder + "/missing/below_*", "no file fits the pattern" } };
+    { folder + "/missing", missing }, { folder + "/missing/below", missing },
+    { folder + "/case[1]/missing", missing }, // the signs are those of a folder that there is
+    { folder + "/open[", missing },           // not a set
+    { folder + "/missing/below_*", unfit }, { folder + "/m?ssing", unfit },
+    { folder + "/missing.%", unfit }, { folder + "/missing_[0-9]", unfit } };
 }
 }
 

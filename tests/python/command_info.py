@@ -38,7 +38,8 @@ with open("odd.dump", "wb") as out:
     out.write(text[: text.index(b"ITEM: TIMESTEP\n3000")] + text[text.index(b"ITEM: TIMESTEP\n4000"):] + text[:-5])
 odd = "\n".join(json.loads(granular("info", "--json", "odd.dump")[0])["odd"])
 assert "expected 1200 rows, got 1199" in odd and "have the timestep of an earlier one" in odd, odd
-granular("info", "nowhere.dump", status=1)
+for name, why in (("nowhere.dump", "no such file or folder"), ("nowhere_*.dump", "no file fits the pattern")):
+    assert granular("info", name, status=1)[1] == f"granular: {os.path.abspath(name)}: {why}\n", name
 granular("info", status=2)
 granular("nonsense", status=2)
 assert "usage" in granular("--help")[0]

@@ -115,6 +115,20 @@ std::string_view folders_of(std::string_view pattern)
   return pattern;
 }
 
+/// Returns true if a name holds a sign that stands for something else, behind the folders that are there.
+bool is_pattern(std::string_view name)
+{
+  name.remove_prefix(folders_of(name).size());
+  for (std::size_t i = 0; i < name.size(); ++i)
+  {
+    if (name[i] == '*' || name[i] == '?' || name[i] == '%' || set_length(name.substr(i)) > 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// The pattern of the shell that a pattern means. Signs in names of folders that there are stand for themselves.
 std::string shell_pattern(const std::string& pattern)
 {
@@ -136,7 +150,7 @@ std::string shell_pattern(const std::string& pattern)
     { path }, static_cast<std::errc>(error));
 }
 
-/// Says why a pattern fits no file.
+/// Says why a pattern fits no file, or that the file of a plain name is not there.
 [[noreturn]] void refuse(const std::string& pattern)
 {
   os::Status status;
@@ -154,7 +168,8 @@ std::string shell_pattern(const std::string& pattern)
   {
     fail("list the folder", folder, errno);
   }
-  throw IoError("no file fits the pattern", { pattern }, std::errc::no_such_file_or_directory);
+  throw IoError(is_pattern(pattern) ? "no file fits the pattern" : "no such file or folder",
+    { pattern }, std::errc::no_such_file_or_directory);
 }
 
 /// Appends the files that a pattern of the shell fits.
