@@ -71,8 +71,8 @@ TEST(KnownColumns, EveryWordOfDumpCustomIsThere)
          "radius", "diameter", "omegax", "omegay", "omegaz", "angmomx", "angmomy", "angmomz", "tqx",
          "tqy", "tqz", "spin", "eradius", "ervel", "erforce", "shapex", "shapey", "shapez", "quat1",
          "quat2", "quat3", "quat4", "blockiness1", "blockiness2", "roundness1", "roundness2",
-         "inertiax", "inertiay", "inertiaz", "thread", "proc", "procp1", "c_a", "c_a[1]", "f_b",
-         "f_b[12]", "v_c", "d_d", "i_e", "i2_f[2]", "d2_g[3]" })
+         "inertiax", "inertiay", "inertiaz", "heatflow", "temperature", "thread", "proc", "procp1",
+         "c_a", "c_a[1]", "f_b", "f_b[12]", "v_c", "d_d", "i_e", "i2_f[2]", "d2_g[3]" })
   {
     EXPECT_NE(granular::find_known_column(name), nullptr) << name;
   }

@@ -87,6 +87,8 @@ inline constexpr KnownColumn known_column_table[] = {
   { "inertiax",        ValueType::Float64, ColumnRole::Other,                   "",           0, 1, "kg m2",  "principal moment of inertia" },
   { "inertiay",        ValueType::Float64, ColumnRole::Other,                   "",           0, 1, "kg m2",  "principal moment of inertia" },
   { "inertiaz",        ValueType::Float64, ColumnRole::Other,                   "",           0, 1, "kg m2",  "principal moment of inertia" },
+  { "temperature",     ValueType::Float64, ColumnRole::Other,                   "",           0, 1, "K",      "temperature" },
+  { "heatflow",        ValueType::Float64, ColumnRole::Other,                   "",           0, 1, "W",      "heat flow into the particle" },
   { "i_*",             ValueType::Int64,   ColumnRole::Other,                   "",           0, 1, "",       "integer property the user added" },
   { "i2_*",            ValueType::Int64,   ColumnRole::Other,                   "",           0, 1, "",       "integer array the user added" },
   { "d_*",             ValueType::Float64, ColumnRole::Other,                   "",           0, 1, "",       "property the user added" },
