@@ -66,7 +66,7 @@ assert GetSources()[("ortho_000050.dump.gz", str(reader.GetGlobalID()))] == read
 before = len(GetSources())
 broken, header = write("broken.dump", BAD), write("header.dump", "ITEM: TIMESTEP\nx\n")
 refused(lambda: vg.reader(header), RuntimeError, f"{header}:2: expected an integer timestep, got 'x'")
-refused(lambda: vg.reader("gone.dump"), FileNotFoundError, "no such file: gone.dump")
+refused(lambda: vg.reader("gone.dump"), FileNotFoundError, "gone.dump: no such file or folder")
 refused(lambda: vg.reader("gone_*.dump"), FileNotFoundError, "gone_*.dump")
 refused(lambda: vg.reader([]), ValueError, "no files")
 refused(lambda: vg.reader(broken, NoProperty=1), AttributeError, "NoProperty")

@@ -73,7 +73,7 @@ fails(ValueError, "step 1000 occurs twice", files + ["other/mesh_1000.stl"], 1)
 fails(ValueError, "dt must be finite and greater than 0, got 0", files, 0)
 fails(ValueError, "dt must be finite and greater than 0, got nan", files, float("nan"))
 fails(ValueError, "must end in '.series'", files, 1, "run.json")
-fails(FileNotFoundError, "no such file: post/mesh2_5.stl", ["post/mesh2_5.stl"], 1)
+fails(FileNotFoundError, "post/mesh2_5.stl: no such file or folder", ["post/mesh2_5.stl"], 1)
 fails(OSError, "", files, 1, "no/such/folder/run.stl.series")
 with open(path) as file:
     assert json.load(file) == series  # what failed left it alone

@@ -40,6 +40,7 @@ odd = "\n".join(json.loads(granular("info", "--json", "odd.dump")[0])["odd"])
 assert "expected 1200 rows, got 1199" in odd and "have the timestep of an earlier one" in odd, odd
 for name, why in (("nowhere.dump", "no such file or folder"), ("nowhere_*.dump", "no file fits the pattern")):
     assert granular("info", name, status=1)[1] == f"granular: {os.path.abspath(name)}: {why}\n", name
+    assert json.loads(granular("info", "--json", name, status=1)[0])["error"]["path"] == os.path.abspath(name), name
 granular("info", status=2)
 granular("nonsense", status=2)
 assert "usage" in granular("--help")[0]

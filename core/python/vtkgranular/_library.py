@@ -268,7 +268,9 @@ def _raise(error: _CError) -> None:
     if error.status == _NO_MEMORY:
         raise MemoryError(message)
     if error.status == _IO_ERROR and error.system_error:
-        raise type(OSError(error.system_error, ""))(message)  # FileNotFoundError, PermissionError, ...
+        failure = type(OSError(error.system_error, ""))(message)  # FileNotFoundError, PermissionError, ...
+        failure.path = path  # not filename, with which Python would make a text of its own
+        raise failure
     raise (ArgumentError if error.status == _BAD_ARGUMENT else Error)(message, *where)
 
 

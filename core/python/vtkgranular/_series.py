@@ -90,7 +90,7 @@ def write_series(files: str | os.PathLike[str] | Iterable[str | os.PathLike[str]
         except UnicodeEncodeError:
             raise ValueError(f"expected a name in UTF-8, as .series files have them, got {shown(file)}") from None
         if not os.path.exists(file):
-            raise FileNotFoundError(f"no such file: {shown(file)}")
+            raise FileNotFoundError(f"{shown(file)}: no such file or folder")
         by_step[step] = file
 
     folder = os.path.dirname(os.path.abspath(path))

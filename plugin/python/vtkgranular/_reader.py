@@ -31,7 +31,7 @@ def _names(paths: Iterable[str], remote: bool) -> list[str]:
         elif any(sign in path for sign in "*%?["):
             names += files(path)
         else:
-            raise FileNotFoundError(f"no such file: {shown(path)}")
+            raise FileNotFoundError(f"{shown(path)}: no such file or folder")
     if not names:
         raise ValueError("no files")
     return [expect_utf8(name) for name in names]
