@@ -1062,26 +1062,6 @@ TEST(Pieces, StrideWithoutIdsCountsTheRowsOfAll)
     run.read(0, request).points(), (std::vector<double>{ 0, 0, 0, 3, 0, 0, 6, 0, 0, 9, 0, 0 }));
 }
 
-TEST(Pieces, AnErrorNamesTheFileAndItsLine)
-{
-  const Folder folder;
-  const std::string second = folder.path("p.2");
-  const auto error = [&](const std::string& rows)
-  {
-    Series run;
-    run.update(
-      { folder.write("p.0", particles(5, { 1, 2 })), folder.write("p.1", particles(5, { 11, 12 })),
-        folder.write("p.2", header(5, 2) + rows), folder.write("p.3", particles(5, { 31, 32 })) });
-    EXPECT_EQ(run.index.pieces(0).size(), 4u);
-    return error_of([&] { run.read(0); });
-  };
-  EXPECT_EQ(
-    error("3 0 0 0\n4 0 zero 0\n"), second + ":11: column 'y': expected a number, got 'zero'");
-  EXPECT_EQ(error("3 0 0\n4 0 0 0\n"), second + ":10: expected 4 words in a row, got 3");
-  EXPECT_EQ(
-    error("3 0 0 0\n4.5 0 0 0\n"), second + ":11: column 'id': expected an integer, got '4.5'");
-}
-
 TEST(Pieces, OneThatWasShortenedOrChangedIsNamed)
 {
   const Folder folder;
@@ -1140,28 +1120,4 @@ TEST(Pieces, AColumnOfWordsInSomeIsOneInAll)
   Series run;
   run.update({ folder.write("q.0", piece("")), folder.write("q.1", piece(numbers)) });
   EXPECT_EQ(run.read(0).values("kind"), (std::vector<double>{ 17, 1.5 }));
-}
-
-TEST(Pieces, AColumnThatIsWidenedInOneIsInAll)
-{
-  const Folder folder;
-  const auto piece = [](const std::string& rows)
-  {
-    const auto count = static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n'));
-    return header(0, count, "id type x y z mol tag") + rows;
-  };
-  Series run;
-  run.update({ folder.write("p.0", piece("1 1 0 0 0 5 1\n")),
-    folder.write("p.1", piece("2 1 0 0 0 6.5 2\n3 1.25 0 0 0 7 3\n")),
-    folder.write("p.2", piece("4 2 0 0 0 8 x4\n")) });
-  const Decoded frame = run.read(0);
-  EXPECT_EQ(frame.values("mol"), (std::vector<double>{ 5, 6.5, 7, 8 }));
-  EXPECT_EQ(frame.values("type"), (std::vector<double>{ 1, 1, 1.25, 2 }));
-  EXPECT_EQ(frame.texts("tag"), (std::vector<std::string>{ "1", "2", "3", "x4" }));
-  EXPECT_EQ(frame.integers("id"), (Ids{ 1, 2, 3, 4 }));
-  EXPECT_EQ(frame.said(),
-    folder.path("p.1") +
-      ":10: column 'mol': expected an integer, got '6.5'; the column is kept as doubles\n" +
-      folder.path("p.1") +
-      ":11: column 'type': expected an integer, got '1.25'; the column is kept as doubles\n");
 }

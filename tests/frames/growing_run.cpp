@@ -386,33 +386,6 @@ TEST(GrowingRun, GzipOfAMemberAFrame)
   follow(folder.path("a.dump.gz"), packed, frames, most_rows, looks, cut_short);
 }
 
-TEST(GrowingRun, GzipOfBinaryFrames)
-{
-  const Folder folder;
-  const std::string bytes = all_frames(binary_frame, frames, most_rows);
-  Series run;
-  // two things may be said of one file: that it is cut short, and that its columns have no names
-  run.options.column_names = { "id", "type", "x", "y", "z" };
-  const std::string packed = gzip_flushed(bytes, 300);
-  const std::string path = folder.path("a.bin.gz");
-  std::size_t seen = 0;
-  std::size_t at = 0;
-  for (const std::size_t end : random_ends(packed.size(), 300, 5))
-  {
-    folder.append("a.bin.gz", packed.substr(at, end - at));
-    at = end;
-    const std::string error = error_of([&] { run.update({ path }); });
-    ASSERT_TRUE(error.empty() || seen == 0) << error;
-    ASSERT_GE(run.index.size(), seen);
-    seen = run.index.size();
-    if (seen > 0)
-    {
-      ASSERT_NO_FATAL_FAILURE(check_frame(run, seen - 1, most_rows));
-    }
-  }
-  EXPECT_EQ(seen, static_cast<std::size_t>(frames));
-}
-
 TEST(GrowingRun, ZstandardThatIsFlushed)
 {
   const Folder folder;

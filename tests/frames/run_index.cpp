@@ -12,9 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 namespace
 {
 namespace fs = std::filesystem;
@@ -34,18 +31,6 @@ std::string at_time(double time, std::int64_t step)
 }
 
 // ---- one file, many files ----------------------------------------------------------------------
-
-TEST(RunIndex, ManyFramesInAFile)
-{
-  const Folder folder;
-  Series run;
-  run.update({ folder.write("a.dump", frame(0) + frame(100, 3) + frame(200, 0)) });
-  EXPECT_EQ(run.said, "");
-  EXPECT_EQ(run.steps(), (Steps{ 0, 100, 200 }));
-  EXPECT_EQ(run.read(1).points()[0], 100);
-  EXPECT_EQ(run.read(1).rows(), 3);
-  EXPECT_EQ(run.read(2).rows(), 0);
-}
 
 TEST(RunIndex, TrapRepeatedTimestepsTheLastOneStays)
 {
@@ -180,11 +165,6 @@ TEST(RunIndex, AFileThatWasWrittenAnewIsReadAnew)
   const std::string path = folder.write("a.dump", frame(0) + frame(100));
   Series run;
   run.update({ path });
-  // into the same file, and longer
-  folder.write("a.dump", frame(5, 7) + frame(6) + frame(7));
-  run.update({ path });
-  EXPECT_EQ(run.steps(), (Steps{ 5, 6, 7 }));
-  EXPECT_EQ(run.read(0).rows(), 7);
   // a new file of that name: the same size, and the same time of change
   const std::string other =
     folder.write("b.dump", frame(8, 7) + frame(9) + frame(10, 1) + "            ");
@@ -236,30 +216,6 @@ TEST(RunIndex, ACopyReadsWhileTheFileGrows)
   EXPECT_EQ(run.read(4).points()[0], 4);
 }
 
-TEST(RunIndex, AFileWithoutFramesAmongOthers)
-{
-  const Folder folder;
-  const std::string good = folder.write("a.dump", frame(0));
-  Series run;
-  run.update({ folder.write("empty.dump", ""), good, folder.write("bad.dump", "not a dump\n") });
-  EXPECT_EQ(run.steps(), Steps{ 0 });
-  EXPECT_EQ(run.said,
-    folder.path("bad.dump") +
-      ":1: expected ITEM: TIMESTEP, UNITS or TIME, got 'not a dump'; the file is left out\n");
-}
-
-TEST(RunIndex, AfterAnErrorItStartsOver)
-{
-  const Folder folder;
-  const std::string path = folder.write("a.dump", frame(0));
-  Series run;
-  run.update({ path });
-  EXPECT_NE(error_of([&] { run.update({ folder.path("missing") }); }), "");
-  EXPECT_EQ(run.index.size(), 0u);
-  run.update({ path });
-  EXPECT_EQ(run.steps(), Steps{ 0 });
-}
-
 TEST(RunIndex, WhatIsWrongAtTheEndIsSaidOnceWhileTheFileGrows)
 {
   const Folder folder;
@@ -292,13 +248,6 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
   without.options.format = nullptr;
   EXPECT_EQ(error_of([&] { without.update({ "a" }); }),
     "expected the format of the files in the options, got none");
-  EXPECT_EQ(
-    error(folder.path("none")), folder.path("none") + ": cannot open: No such file or directory");
-  EXPECT_EQ(error(folder.path("")),
-    folder.path("") + ": expected a file, got a directory: name the files in it");
-  const std::string empty = folder.write("empty", "");
-  EXPECT_EQ(error(empty),
-    empty + ": expected a dump, got an empty file: its program has written nothing to it yet");
   const std::string blank = folder.write("blank", "\n \n");
   EXPECT_EQ(error(blank), blank + ": expected a dump, got no complete frame");
   const std::string garbage = folder.write("garbage",
@@ -306,54 +255,14 @@ TEST(RunIndex, ErrorsSayWhatIsWrongWithTheFirstFile)
     "ELF\x02\x01\n");
   EXPECT_EQ(
     error(garbage), garbage + "@0: expected a complete frame, got the end of the file in it");
-  const std::string bzip2 = folder.write("dump.bz2", "BZh91AY&SY\x01\x02");
-  EXPECT_EQ(error(bzip2),
-    bzip2 +
-      ": expected a dump, got a file packed by bzip2: unpack it first; only gzip and Zstandard "
-      "need no "
-      "unpacking");
   const std::string zeros = folder.write("zeros", std::string(5'000'000, '\0'));
   EXPECT_EQ(error(zeros),
     zeros + "@92: expected 1 to 5000 columns, got 0; no known layout of a binary dump fits");
   const std::string one_line = folder.write("one", std::string(1000, 'x'));
   EXPECT_EQ(error(one_line), one_line + ": expected a dump, got no complete frame");
-  const std::string cut = folder.write("cut", frame(0).substr(0, 60));
-  EXPECT_EQ(
-    error(cut), cut + ":1: expected a complete frame, got the end of the file in its header");
-  const std::string rows =
-    folder.write("rows", "\n" + frame(0, 2).substr(0, frame(0, 2).rfind(' ')));
-  EXPECT_EQ(
-    error(rows), rows + ":2: expected 2 rows, got 1, and a last line without its line feed");
-  ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0600), 0);
-  EXPECT_EQ(
-    error(folder.path("pipe")), folder.path("pipe") + ": expected a file, got a device or a pipe");
 }
 
 // ---- rewritten in place ------------------------------------------------------------------------
-
-TEST(RunIndex, ARerunThatWritesTheSameLayoutIsNotMistakenForTheOldOne)
-{
-  const Folder folder;
-  const std::string before = replaced(frame(0), "id x y z\n", "id xs ys zs vx\n");
-  const auto rows = [](const std::string& text, const std::string& values)
-  { return text.substr(0, text.find("1 0 0.5")) + values; };
-  const std::string values = "1 .5 .5 .5 7\n2 .5 .5 .5 7\n";
-  const std::string path = folder.write("a.dump", rows(before, values));
-  Series run;
-  run.update({ path });
-  EXPECT_TRUE(run.read(0).has("vx"));
-
-  // same length, same inode: forces instead of velocities, and another box
-  const std::string after = replaced(replaced(before, "0 1\n0 1\n", "0 8\n0 8\n"), "vx", "fx");
-  folder.write("a.dump", rows(after, values));
-  touch(path, 1);
-  EXPECT_EQ(error_of([&] { run.read(0); }),
-    path + ": the file changed since it was indexed; reload the files");
-  run.update({ path });
-  EXPECT_TRUE(run.read(0).has("fx"));
-  EXPECT_FALSE(run.read(0).has("vx"));
-  EXPECT_EQ(run.read(0).points().front(), 4);
-}
 
 TEST(RunIndex, ARerunThatGrewWithTheSameFirstHeader)
 {
