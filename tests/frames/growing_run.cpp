@@ -338,70 +338,46 @@ TEST(GrowingRun, Text)
   }
 }
 
-TEST(GrowingRun, TextOfLargeFrames)
+TEST(GrowingRun, OtherForms)
 {
-  // larger than all buffers of the reader
-  const Folder folder;
-  follow(folder.path("a.dump"), all_frames(text_frame, 30, 20000), 30, 20000, 200);
-}
-
-TEST(GrowingRun, Binary)
-{
-  const Folder folder;
+  constexpr int few = 30;
+  constexpr int large = 20000; // rows, more than all buffers of the reader hold
+  const std::string text = all_frames(text_frame, frames, most_rows);
+  const std::string large_text = all_frames(text_frame, few, large);
+  std::string members;
+  std::string packed_frames;
+  for (int i = 0; i < frames; ++i)
+  {
+    members += packing::gzip(text_frame(i, most_rows));
+    packed_frames += packing::zstd(text_frame(i, most_rows));
+  }
   // without a name for its columns: id type xs ys zs in a box from 0 to 1
-  follow(folder.path("a.bin"), all_frames(binary_frame, frames, most_rows), frames, most_rows,
-    looks, "set ColumnNames if the columns, which the file does not name");
-}
-
-TEST(GrowingRun, BinaryOfLargeFrames)
-{
-  const Folder folder;
-  follow(folder.path("a.bin"), all_frames(binary_frame, 30, 20000), 30, 20000, 200,
-    "set ColumnNames if the columns, which the file does not name");
-}
-
-TEST(GrowingRun, GzipThatIsFlushed)
-{
-  const Folder folder;
-  const std::string text = all_frames(text_frame, frames, most_rows);
-  follow(folder.path("a.dump.gz"), gzip_flushed(text, 500), frames, most_rows, looks, cut_short);
-}
-
-TEST(GrowingRun, GzipOfLargeFrames)
-{
-  // content of several MiB: seek points come into play
-  const Folder folder;
-  const std::string text = all_frames(text_frame, 30, 20000);
-  follow(folder.path("a.dump.gz"), gzip_flushed(text, 500), 30, 20000, 100, cut_short);
-}
-
-TEST(GrowingRun, GzipOfAMemberAFrame)
-{
-  const Folder folder;
-  std::string packed;
-  for (int i = 0; i < frames; ++i)
+  const char* const unnamed = "set ColumnNames if the columns, which the file does not name";
+  const struct
   {
-    packed += packing::gzip(text_frame(i, most_rows));
-  }
-  follow(folder.path("a.dump.gz"), packed, frames, most_rows, looks, cut_short);
-}
-
-TEST(GrowingRun, ZstandardThatIsFlushed)
-{
+    const char* name;
+    std::string bytes;
+    int frames, most;
+    std::size_t looks;
+    const char* may_say;
+  } files[] = {
+    { "large.dump", large_text, few, large, 200, "" },
+    { "a.bin", all_frames(binary_frame, frames, most_rows), frames, most_rows, looks, unnamed },
+    { "large.bin", all_frames(binary_frame, few, large), few, large, 200, unnamed },
+    { "flushed.dump.gz", gzip_flushed(text, 500), frames, most_rows, looks, cut_short },
+    // content of several MiB: seek points come into play
+    { "large.dump.gz", gzip_flushed(large_text, 500), few, large, 100, cut_short },
+    { "members.dump.gz", members, frames, most_rows, looks, cut_short },
+    { "flushed.dump.zst", zstd_flushed(text, 500), frames, most_rows, looks, cut_short },
+    { "frames.dump.zst", packed_frames, frames, most_rows, looks, cut_short },
+  };
   const Folder folder;
-  const std::string text = all_frames(text_frame, frames, most_rows);
-  follow(folder.path("a.dump.zst"), zstd_flushed(text, 500), frames, most_rows, looks, cut_short);
-}
-
-TEST(GrowingRun, ZstandardOfAFrameEach)
-{
-  const Folder folder;
-  std::string packed;
-  for (int i = 0; i < frames; ++i)
+  for (const auto& file : files)
   {
-    packed += packing::zstd(text_frame(i, most_rows));
+    SCOPED_TRACE(file.name);
+    ASSERT_NO_FATAL_FAILURE(
+      follow(folder.path(file.name), file.bytes, file.frames, file.most, file.looks, file.may_say));
   }
-  follow(folder.path("a.dump.zst"), packed, frames, most_rows, looks, cut_short);
 }
 
 // ---- a file a process --------------------------------------------------------------------------
