@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
@@ -214,46 +213,6 @@ TEST(LocalReader, AsManyColumnsAsThereMayBe)
   const std::string file = write_text("b.dump", local_frame(columns, {}));
   EXPECT_EQ(error_of([&] { const LocalRun run({ file }); }),
     file + ":9: expected at most 5000 columns, got 5001");
-}
-
-// A large frame, by one thread and by two: the same bits.
-TEST(LocalReader, ThreadsChangeNothing)
-{
-  constexpr int count = 300'000;
-  std::string rows; // a thousand, each of them another
-  for (int i = 0; i < 1000; ++i)
-  {
-    rows += std::to_string(i % 10) + "." + std::to_string(i) + " 1.5 2 9." +
-      std::to_string(i % 89) + " 3e-1 4 " + std::to_string(i + 1) + " 77 -0." + std::to_string(i) +
-      " \n";
-  }
-  std::string text = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n" + std::to_string(count) +
-    "\nITEM: BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10\nITEM: ENTRIES x1 y1 z1 x2 y2 z2 id1 id2 c_f \n";
-  for (int i = 0; i < count; i += 1000)
-  {
-    text += rows;
-  }
-  const std::string path = write_text("large.dump", text);
-  LocalRun run({ path });
-  granular::Request request;
-  const std::vector<std::string> names = granular::name_columns(run.columns());
-  request.periodic_lines = granular::PeriodicLines::Split;
-  const granular::Table one = run.read(0, request, names);
-  request.threads = 2;
-  const granular::Table two = run.read(0, request, names);
-  ASSERT_EQ(one.rows, count);
-  EXPECT_GT(one.lines.count, count);
-  EXPECT_EQ(values<std::int64_t>(one, "id1")[count - 1], 1000);
-  EXPECT_EQ(two.lines.rows, one.lines.rows);
-  const auto same = [](const granular::Block& a, const granular::Block& b)
-  { return a.bytes() == b.bytes() && std::memcmp(a.data(), b.data(), a.bytes()) == 0; };
-  EXPECT_TRUE(same(one.lines.points, two.lines.points));
-  EXPECT_TRUE(same(one.lines.lengths, two.lines.lengths));
-  ASSERT_EQ(one.arrays.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    EXPECT_TRUE(same(one.arrays[i].block, two.arrays[i].block));
-  }
 }
 
 // %g has six digits: of ids that are printed with an exponent the others are lost.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reader from C++: its two outputs, what the columns are, lines across faces, pieces, runs that grow, errors, stopping.
+// The reader from C++: its two outputs, what the columns are, lines across faces, runs that grow, errors.
 #include "vtkGranularLocalReader.h"
 
 #include "../dump/reader_helpers.h"
-#include "../support/many_columns.h"
 #include "../support/observer.h"
 #include "../support/vtk_arrays.h"
 #include "local_files.h"
@@ -17,8 +16,6 @@
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
-#include <array>
-#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -296,24 +293,9 @@ TEST(LocalReaderVtk, ColumnMap)
   reader->SetColumnMap(nullptr);
   reader->Update();
   EXPECT_EQ(reader.Names(), "mesh triangle id2 length");
-  EXPECT_EQ(reader.TakeSaid(), Texts{});
-}
-
-TEST(LocalReaderVtk, PresetIsChangedAfterwards)
-{
-  LinesReader reader({ Write(silent_columns(3), { "1 2 3", "1 4 5" }) });
-  reader->SetPreset(vtkGranularLocalReader::BOND_TYPE_IDS);
-  reader->Update();
-  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 2, 4 }));
-  reader->SetPreset(vtkGranularLocalReader::BOND_IDS);
-  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 2, 4 })) << "not yet";
-  reader->Update();
-  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 1, 1 }));
-  EXPECT_EQ(reader.Names(true), "id1 id2 btype");
   reader->SetPreset(vtkGranularLocalReader::AS_NAMED);
   reader->Update();
   EXPECT_EQ(reader.Names(true), "c_a");
-  EXPECT_EQ(reader.Rows()->GetColumnByName("c_a") ? 1 : 0, 1);
   EXPECT_EQ(reader.TakeSaid(), Texts{});
 }
 
@@ -363,22 +345,6 @@ TEST(LocalReaderVtk, ErrorsOfRows)
   // where rows tell what the columns are, too
   error(
     silent_columns(3), { "1 2 1", "1 x 1" }, ":11: column 'c_a[2]': expected a number, got 'x'");
-}
-
-TEST(LocalReaderVtk, FilesThatAreNone)
-{
-  const std::string gone = WriteFile("gone.dump", "");
-  std::filesystem::remove(gone);
-  LinesReader reader({ gone });
-  reader.ExpectError(gone + ": cannot open: No such file or directory");
-  const std::string particles = Good("grains_1000.dump");
-  LinesReader other({ particles });
-  other.ExpectError(particles +
-    ":3: expected ITEM: NUMBER OF ENTRIES, or of other things than ATOMS, got 'ITEM: NUMBER OF "
-    "ATOMS'");
-  LinesReader none({});
-  none->Update();
-  EXPECT_NE(none->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
 }
 
 TEST(LocalReaderVtk, ArraysThatAreRead)
@@ -558,61 +524,6 @@ TEST(LocalReaderVtk, ColumnsThatChange)
   EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 2);
 }
 
-TEST(LocalReaderVtk, Ids)
-{
-  const Texts ids = { "0", "-1", "2147483648", "9007199254740993", "9223372036854775807",
-    "-9223372036854775808" };
-  Texts rows;
-  for (const std::string& id : ids)
-  {
-    rows.push_back(id + " 1e+06");
-  }
-  LinesReader reader({ Write("id1 id2", rows) });
-  reader->Update();
-  auto* array = vtkTypeInt64Array::SafeDownCast(reader.Rows()->GetColumnByName("id1"));
-  ASSERT_TRUE(array);
-  for (vtkIdType i = 0; i < 6; ++i)
-  {
-    EXPECT_EQ(std::to_string(array->GetValue(i)), ids[static_cast<std::size_t>(i)]);
-  }
-  EXPECT_EQ(reader.TakeSaid(), Texts{}) << "ids of more digits were kept: none is rounded";
-}
-
-// The parts that a pipeline asks for hold each row once, in order, with the number that it has in the frame.
-TEST(LocalReaderVtk, Pieces)
-{
-  Texts rows;
-  Values numbers;
-  for (int i = 0; i < 50; ++i)
-  {
-    rows.push_back((i % 3 == 0 ? "9.5" : "1") + std::string(" 1 1 0.5 1 1 ") + std::to_string(i));
-    numbers.push_back(i);
-    if (i % 3 == 0)
-    {
-      numbers.push_back(i);
-    }
-  }
-  LinesReader reader({ Write("x1 y1 z1 x2 y2 z2 id1", rows) });
-  reader->SetPeriodicLines(vtkGranularLocalReader::SPLIT);
-  for (const int pieces : { 1, 2, 3, 7, 60 })
-  {
-    Values ids;
-    Values found;
-    for (int piece = 0; piece < pieces; ++piece)
-    {
-      reader->UpdatePiece(piece, pieces, 0);
-      EXPECT_EQ(reader.Names(), "id1 row part length");
-      const Values own = ValuesOf(reader.Cells("id1"));
-      ids.insert(ids.end(), own.begin(), own.end());
-      const Values row = ValuesOf(reader.Cells("row"));
-      found.insert(found.end(), row.begin(), row.end());
-    }
-    EXPECT_EQ(ids, numbers) << pieces;
-    EXPECT_EQ(found, numbers) << pieces;
-  }
-  EXPECT_EQ(reader.TakeSaid(), Texts{});
-}
-
 TEST(LocalReaderVtk, AGrowingRun)
 {
   const std::string names = silent_columns(3);
@@ -639,48 +550,6 @@ TEST(LocalReaderVtk, AGrowingRun)
   EXPECT_EQ(reader.Times(), Values{ 7 });
   reader->Update();
   EXPECT_EQ(reader.Names(true), "id1 id2");
-}
-
-TEST(LocalReaderVtk, RepeatedSteps)
-{
-  const std::string first =
-    WriteFile("run_1.dump", local_frame("id1 id2", { "1 2" }, Box, "ENTRIES", 5));
-  const std::string second =
-    WriteFile("run_2.dump", local_frame("id1 id2", { "3 4", "5 6" }, Box, "ENTRIES", 5));
-  LinesReader reader({ first, second });
-  reader->SetRepeatedSteps(vtkGranularLocalReader::LAST);
-  reader->Update();
-  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 3, 5 }));
-  reader->SetRepeatedSteps(vtkGranularLocalReader::MERGE);
-  reader->Update();
-  EXPECT_EQ(ValuesOf(reader.Rows()->GetColumnByName("id1")), (Values{ 1, 3, 5 }));
-}
-
-TEST(LocalReaderVtk, IsStopped)
-{
-  Texts rows;
-  for (int i = 0; i < 30000; ++i)
-  {
-    rows.push_back("1 1 1 2 1 1 " + std::to_string(i));
-  }
-  const std::string path = Write("x1 y1 z1 x2 y2 z2 id1", rows);
-  for (std::size_t at = 1;; ++at)
-  {
-    LinesReader reader({ path });
-    reader.Seen->StopAt = at;
-    reader->Update();
-    if (reader.Lines()->GetNumberOfCells() > 0)
-    {
-      EXPECT_GT(at, 3u);
-      break;
-    }
-    EXPECT_EQ(reader.Rows()->GetNumberOfRows(), 0);
-    EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
-    reader.Seen->StopAt = 0;
-    reader->Update();
-    EXPECT_EQ(reader.Lines()->GetNumberOfCells(), 30000);
-    EXPECT_EQ(reader.TakeSaid(), Texts{});
-  }
 }
 
 TEST(LocalReaderVtk, CanReadFile)
@@ -712,23 +581,4 @@ TEST(LocalReaderVtk, IsPrinted)
   {
     EXPECT_NE(text.str().find(line), std::string::npos) << line;
   }
-}
-
-// On both outputs, with names that lines have, too.
-TEST(LocalReaderVtk, AsManyColumnsAsThereMayBe)
-{
-  constexpr int many = many_columns - 9;
-  const std::string columns = line_of_many("x1 y1 z1 x2 y2 z2 id1 id2 length", "a");
-  const std::string row = line_of_many("1 1 1 2 2 2 3 4 5", "#");
-  LinesReader reader({ write_text("many.dump", local_frame(columns, { row })) });
-  reader->Update();
-  vtkFieldData* const rows = reader.Rows()->GetRowData();
-  vtkFieldData* const cells = reader.Lines()->GetCellData();
-  ASSERT_EQ(rows->GetNumberOfArrays(), many + 3);
-  ASSERT_EQ(cells->GetNumberOfArrays(), many + 4);
-  EXPECT_STREQ(rows->GetArrayName(2), "length");
-  EXPECT_STREQ(cells->GetArrayName(2), "length");
-  EXPECT_STREQ(cells->GetArrayName(many + 2), "a_4991");
-  EXPECT_STREQ(cells->GetArrayName(many + 3), "length_2");
-  EXPECT_EQ(cells->GetArray(many + 2)->GetComponent(0, 0), many);
 }

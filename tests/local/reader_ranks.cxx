@@ -3,6 +3,7 @@
 #include "vtkGranularLocalReader.h"
 
 #include "../dump/reader_ranks.h"
+#include "../support/observer.h"
 #include "local_files.h"
 
 #include "vtkCellData.h"
@@ -31,38 +32,25 @@ const std::string& Text()
   return text;
 }
 
-struct LinesReader
+struct LinesReader : Watched<vtkGranularLocalReader>
 {
-  vtkNew<vtkGranularLocalReader> Get;
-  vtkNew<Messages> Said;
-  vtkNew<Messages> PipelineSaid;
-
   LinesReader()
   {
-    this->Get->AddObserver(vtkCommand::ErrorEvent, this->Said);
-    this->Get->AddObserver(vtkCommand::WarningEvent, this->Said);
-    this->Get->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->PipelineSaid);
     this->Get->AddFileName("run.dump");
     this->Get->SetThreads(1);
     this->Get->SetPeriodicLines(vtkGranularLocalReader::SPLIT);
   }
-
-  vtkGranularLocalReader* operator->() { return this->Get; }
 };
 
 class LocalReaderRanks : public ReaderRanks
 {
 protected:
-  void Update(LinesReader& reader)
-  {
-    reader.Said->Errors.clear();
-    reader->UpdateTimeStep(0, this->Rank(), this->Size());
-  }
+  void Update(LinesReader& reader) { reader->UpdateTimeStep(0, this->Rank(), this->Size()); }
 
   /// Both parts of each line are on one rank, with its number in the frame.
   void ExpectAll(LinesReader& reader)
   {
-    EXPECT_EQ(reader.Said->Errors, std::vector<std::string>{});
+    reader.ExpectSaid("");
     vtkDataArray* rows = reader->GetOutput()->GetCellData()->GetArray("row");
     vtkDataArray* ids = reader->GetOutput()->GetCellData()->GetArray("id1");
     ASSERT_TRUE(rows && ids);
@@ -83,8 +71,9 @@ protected:
   {
     EXPECT_EQ(reader->GetOutput()->GetNumberOfCells(), 0);
     EXPECT_EQ(reader->GetRows()->GetNumberOfColumns(), 0);
-    ASSERT_EQ(reader.Said->Errors.size(), 1u);
-    const std::string& error = reader.Said->Errors[0];
+    const std::vector<std::string> said = reader.TakeSaid();
+    ASSERT_EQ(said.size(), 1u);
+    const std::string& error = said[0];
     EXPECT_NE(error.find(text), std::string::npos) << error;
     EXPECT_NE(error.find("(on rank " + std::to_string(rank) + " of "), std::string::npos) << error;
     this->ExpectSame(error);

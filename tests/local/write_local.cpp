@@ -278,25 +278,6 @@ TEST(WriteLocal, NoBox)
     expected);
 }
 
-TEST(WriteLocal, TiltedBoxUnitsAndTime)
-{
-  const Made made;
-  FrameView view = made.view();
-  view.header.box = Box::from_tilted_bounds({ 0, 0, 0 }, { 5, 4, 3 }, 1, 0, 0.5);
-  view.header.box.boundary = "pp pp pp";
-  view.header.units = "lj";
-  view.header.time = 0.125;
-  DumpFormat format = local(Dialect::Lammps);
-  format.columns = { "id1" };
-  format.units = true;
-  format.time = true;
-  const std::string begin =
-    "ITEM: UNITS\nlj\nITEM: TIME\n0.125\nITEM: TIMESTEP\n5\nITEM: NUMBER OF ENTRIES\n3\n"
-    "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0.0000000000000000e+00 5.0000000000000000e+00 "
-    "1.0000000000000000e+00\n";
-  EXPECT_EQ(write(view, format).bytes.substr(0, begin.size()), begin);
-}
-
 TEST(WriteLocal, NoRows)
 {
   const Made made;
@@ -314,33 +295,6 @@ TEST(WriteLocal, NoRows)
   format.columns.clear();
   view.columns.clear();
   EXPECT_EQ(write(view, format).error, "expected at least one column, got none");
-}
-
-/// More rows than a chunk has.
-TEST(WriteLocal, ManyRows)
-{
-  std::vector<std::int64_t> ids;
-  std::string expected;
-  for (std::int64_t i = 0; i < 100000; ++i)
-  {
-    ids.push_back(i * 7919);
-    expected += std::to_string(i * 7919) + " \n";
-  }
-  FrameView view;
-  view.has_box = false;
-  view.rows = static_cast<std::int64_t>(ids.size());
-  view.arrays.push_back(view_rows("id1", ValueType::Int64, ids.data()));
-  const Folder folder;
-  for (const std::vector<std::int64_t>& shares :
-    std::vector<std::vector<std::int64_t>>{ { 100000 }, { 1, 70000, 100000 } })
-  {
-    const Written written =
-      write_dump(folder.path("many"), cut({ view }, shares), local(Dialect::Lammps));
-    EXPECT_EQ(
-      difference(written.bytes,
-        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n100000\nITEM: ENTRIES id1 \n" + expected),
-      "");
-  }
 }
 
 // ---- errors ------------------------------------------------------------------------------------

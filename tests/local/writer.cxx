@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What vtkGranularLocalWriter writes of lines and tables, and what it refuses.
-#include "vtkGranularLocalJoin.h"
 #include "vtkGranularLocalReader.h"
 #include "vtkGranularLocalWriter.h"
 
@@ -23,7 +22,6 @@
 #include "vtkVariantArray.h"
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace
@@ -375,88 +373,6 @@ TEST(LocalWriter, WithoutATimestep)
     Lines{ "the input has no field data 'timestep': frames are counted from 0" });
 }
 
-// ---- names --------------------------------------------------------------------------------------------
-
-TEST(LocalWriter, NamesOfStepsAndProcesses)
-{
-  const std::string path = FreshName("bonds_*.%.dump");
-  LocalWriter writer(path, MakeTable({ 1 }));
-  writer.ExpectWritten();
-  EXPECT_EQ(Beside(path), Lines{ "bonds_7.0.dump" });
-  for (const char* name : { "a.gz", "a.zst" })
-  {
-    const std::string magic = name[2] == 'g' ? "\x1f\x8b" : "\x28\xb5\x2f\xfd";
-    EXPECT_EQ(LocalWriter(NewName(name), MakeTable({ 1 })).Bytes().find(magic), 0u);
-  }
-}
-
-// ---- there and back -----------------------------------------------------------------------------------
-
-/// Ids that six digits, 32 bits and a double do not hold.
-TEST(LocalWriter, JoinedLinesAreReadBack)
-{
-  const Integers ids = { 1000001, 2147483649, 9007199254740993, 9007199254740992 };
-  vtkNew<vtkPolyData> particles;
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const double x : { 0.1, 1.0 / 3, 9.7, 5.0 })
-  {
-    points->InsertNextPoint(x, 2.0 / 3, 5);
-  }
-  particles->SetPoints(points);
-  AddIds(particles->GetPointData(), "id", ids);
-  AddField(particles, "timestep", { 7 });
-  AddBox(particles);
-  vtkNew<vtkTable> table;
-  AddIds(table->GetRowData(), "id1", { ids[0], ids[1], ids[2] });
-  AddIds(table->GetRowData(), "id2", { ids[1], ids[2], ids[3] });
-  AddValues(
-    table->GetRowData(), "force", std::vector<double>{ .1, .2, .3, .4, .5, .6, .7, .8, .9 }, 3);
-  for (const int way : { vtkGranularLocalJoin::MINIMUM_IMAGE, vtkGranularLocalJoin::SPLIT,
-         vtkGranularLocalJoin::AS_WRITTEN })
-  {
-    vtkNew<vtkGranularLocalJoin> join;
-    join->SetInputDataObject(0, particles);
-    join->SetInputDataObject(1, table);
-    join->SetPeriodicLines(way);
-    join->SetEquilibriumLength(1);
-    LocalWriter writer(NewName("a.bonds"));
-    writer->SetInputConnection(join->GetOutputPort());
-    writer->SetNumberFormat("shortest");
-    writer.ExpectWritten();
-    vtkNew<vtkGranularLocalReader> reader;
-    reader->AddFileName(writer->GetFileName());
-    reader->SetPeriodicLines(way);
-    reader->Update();
-    vtkPolyData* made = join->GetOutput();
-    vtkPolyData* read = reader->GetOutput();
-    ASSERT_EQ(reader->GetRows()->GetNumberOfRows(), 3);
-    ASSERT_EQ(read->GetNumberOfPoints(), made->GetNumberOfPoints());
-    EXPECT_EQ(read->GetNumberOfLines() > 3, way == vtkGranularLocalJoin::SPLIT);
-    for (vtkIdType i = 0; i < read->GetNumberOfPoints(); ++i)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        EXPECT_NEAR(read->GetPoint(i)[axis], made->GetPoint(i)[axis], 1e-14) << i;
-      }
-    }
-    for (const char* name : { "id1", "id2", "force", "elongation", "strain" })
-    {
-      vtkDataArray* mine = made->GetCellData()->GetArray(name);
-      vtkDataArray* back = read->GetCellData()->GetArray(name);
-      ASSERT_NE(back, nullptr) << name;
-      ASSERT_EQ(back->GetNumberOfValues(), mine->GetNumberOfValues());
-      for (vtkIdType i = 0; i < mine->GetNumberOfValues(); ++i)
-      {
-        EXPECT_EQ(back->GetVariantValue(i), mine->GetVariantValue(i)) << name << " " << i;
-      }
-    }
-    const auto* id1 = vtkTypeInt64Array::SafeDownCast(read->GetCellData()->GetArray("id1"));
-    ASSERT_NE(id1, nullptr);
-    EXPECT_EQ(id1->GetValue(read->GetNumberOfCells() - 1), ids[2]);
-  }
-}
-
 // ---- errors -------------------------------------------------------------------------------------------
 
 TEST(LocalWriterErrors, OtherThanLinesAndTables)
@@ -542,18 +458,6 @@ TEST(LocalWriterErrors, BinaryNames)
   writer.ExpectUnsupported(
     "expected text for local data, got a binary dump: no program reads that");
   EXPECT_EQ(Beside(writer->GetFileName()), Lines{});
-}
-
-/// One where nothing can be made, as a file is in its place.
-TEST(LocalWriterErrors, AFolderThatIsNone)
-{
-  const std::string old = WriteFile("a.bonds", "the old file");
-  LocalWriter writer(old + "/b.bonds", MakeBonds());
-  EXPECT_EQ(writer->Write(), 0);
-  ASSERT_EQ(writer.Said->Errors.size(), 1u);
-  EXPECT_EQ(writer.Said->Errors[0].find(old + "/b.bonds: "), 0u) << writer.Said->Errors[0];
-  EXPECT_EQ(Content(old), "the old file");
-  EXPECT_EQ(Beside(old), Lines{ "a.bonds" });
 }
 
 TEST(LocalWriterErrors, OutOfRangeChangesNothing)
