@@ -3,18 +3,18 @@
 #include "restart_runs.h"
 #include "shared_file.h"
 
+#include "../local/text_frames.h"
+
 #include "granular/formats/dump/read/dump_reader.h"
 #include "granular/formats/restart/record_plan.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -45,36 +45,19 @@ std::string style_file(const std::string& name)
 /// Rows of one frame of a text dump, by id: each column by its name.
 using DumpRows = std::map<std::int64_t, std::map<std::string, double>>;
 
-/// The frame at a timestep, by plain means.
-DumpRows dump_rows(const std::string& path, const std::string& timestep)
+DumpRows dump_rows(const std::string& path, long timestep)
 {
-  std::ifstream file(path);
-  std::string line;
   DumpRows rows;
-  bool wanted = false;
-  while (std::getline(file, line))
+  for (const TextFrame& frame : read_text_frames(path))
   {
-    if (line == "ITEM: TIMESTEP")
+    for (std::size_t i = 0; frame.timestep == timestep && i < frame.rows.size(); ++i)
     {
-      std::getline(file, line);
-      wanted = line == timestep;
-    }
-    else if (wanted && line.starts_with("ITEM: ATOMS "))
-    {
-      std::istringstream head(line.substr(12));
-      const std::vector<std::string> names{ std::istream_iterator<std::string>(head), {} };
-      while (file.peek() != 'I' && std::getline(file, line))
+      std::map<std::string, double> row;
+      for (std::size_t column = 0; column < frame.columns.size(); ++column)
       {
-        std::istringstream words(line);
-        std::map<std::string, double> row;
-        for (const std::string& name : names)
-        {
-          std::string word;
-          words >> word;
-          row[name] = std::stod(word);
-        }
-        rows[static_cast<std::int64_t>(row.at("id"))] = row;
+        row[frame.columns[column]] = frame.rows[i].at(column);
       }
+      rows[static_cast<std::int64_t>(row.at("id"))] = row;
     }
   }
   return rows;
@@ -166,7 +149,7 @@ TEST(RestartRecords, ParticlesAsTheirDump)
     GTEST_SKIP() << "the file is not there";
   }
   const RestartRun run = read_file(restart);
-  const DumpRows rows = dump_rows(shared_file("liggghts/grains.dump"), "4000");
+  const DumpRows rows = dump_rows(shared_file("liggghts/grains.dump"), 4000);
   ASSERT_EQ(rows.size(), 1200u);
   EXPECT_EQ(run.frame.rows.header.timestep, 4000);
   EXPECT_EQ(run.frame.rows.header.rows, 1200);
@@ -250,7 +233,7 @@ TEST(RestartRecords, StylesAsTheirDumps)
     { "atomic", "charge", "sphere", "full", "ellipsoid", "tri", "sph", "sph_var", "molecular" })
   {
     const RestartRun run = read_file(style_file(name + ".restart"));
-    const DumpRows rows = dump_rows(style_file(name + ".dump"), "0");
+    const DumpRows rows = dump_rows(style_file(name + ".dump"), 0);
     ASSERT_FALSE(rows.empty()) << name;
     const std::size_t forms = 3; // x y z, which points are
     EXPECT_EQ(expect_rows(run.frame.rows, rows, 17), rows.begin()->second.size() - forms) << name;
