@@ -491,6 +491,8 @@ TEST(BinaryDump, FramesOfOtherColumns)
     const Dump dump(binary::write(form, { five, eight, five }).bytes);
     EXPECT_EQ(dump.said(), "");
     ASSERT_EQ(dump.frames(), 3u);
+    EXPECT_EQ(dump.index().unnamed, !form.named());
+    EXPECT_EQ(dump.entry(0).kind->schema.text(), "id type xs ys zs");
     EXPECT_EQ(dump.read({}, 0).names(), "id type");
     EXPECT_EQ(dump.read({}, 1).names(), "id type image");
     EXPECT_EQ(dump.read({}, 1).integers("image"), (Integers{ 1, 2, -3 }));
@@ -563,6 +565,8 @@ TEST(BinaryDump, NamesOfTheFileComeFirst)
   EXPECT_FALSE(dump.index().unnamed);
   EXPECT_EQ(dump.read().points(), (Doubles{ 3, 4, 5 }));
   EXPECT_EQ(dump.read().values("q"), Doubles{ 2 });
+  const Dump text(one_frame("id x y z", "1 2 3 4\n"), "these are not used");
+  EXPECT_EQ(text.entry().kind->schema.text(), "id x y z");
 }
 
 TEST(BinaryDump, NamesOfTheUser)
@@ -578,23 +582,6 @@ TEST(BinaryDump, NamesOfTheUser)
       EXPECT_EQ(dump.read().points(), (Doubles{ 4, 3, 2 })) << form.name;
       EXPECT_EQ(dump.read().values("radius"), Doubles{ 1 });
       EXPECT_EQ(dump.read().values("f_heat"), Doubles{ 5 });
-    }
-  }
-}
-
-TEST(BinaryDump, NamesOfDumpAtom)
-{
-  for (const Form& form : forms())
-  {
-    if (!form.named())
-    {
-      const Dump five(binary::write(form, { frame_of(form, "", 5, { 1, 2, 3, 4, 5 }) }).bytes);
-      EXPECT_EQ(five.entry().kind->schema.text(), "id type xs ys zs");
-      EXPECT_TRUE(five.index().unnamed);
-      const Dump eight(
-        binary::write(form, { frame_of(form, "", 8, { 1, 2, 3, 4, 5, 6, 7, 8 }) }).bytes);
-      EXPECT_EQ(eight.entry().kind->schema.text(), "id type xs ys zs ix iy iz");
-      EXPECT_EQ(eight.read().integers("image"), (Integers{ 6, 7, 8 }));
     }
   }
 }

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -306,6 +305,48 @@ TEST(FrameFaults, BinariesThatChangeWhileTheyAreRead)
   const binary::Form& form = binary::form("DUMPCUSTOM revision 2, little-endian");
   const std::string bytes = binary::write(form, { binary::particles(form, 1, 30) }).bytes;
   expect_no_crash(bytes, Dump(bytes));
+}
+
+/// Cut to some bytes after so many reads.
+TEST(FrameFaults, ShortenedWhileItIsRead)
+{
+  std::string rows;
+  for (int row = 0; row < 10'000; ++row)
+  {
+    rows += std::to_string(row) + " 0.5 0.25 0.125 H\n";
+  }
+  const std::string text = one_frame("id x y z element", rows);
+  const Dump dump(text);
+  int shortened = 0;
+  for (int reads = 0; reads < 5; ++reads)
+  {
+    for (const std::size_t left :
+      { std::size_t{ 0 }, std::size_t{ 200 }, text.size() / 2, text.size() - 1 })
+    {
+      const Liar source(text, text.substr(0, left), reads, false);
+      const std::string error = error_of(
+        [&]
+        {
+          Notices notices;
+          Progress progress;
+          read_dump(source, dump.entry(), {}, notices, progress);
+        });
+      if (reads == 0 && left == 0) // the header is gone
+      {
+        EXPECT_EQ(error,
+          "liar:1: the file changed since it was indexed: expected the frame of timestep 0; reload "
+          "the files");
+      }
+      else if (!error.empty())
+      {
+        ++shortened;
+        EXPECT_TRUE(error.starts_with("liar: the file was shortened while it was read: expected " +
+          std::to_string(text.size()) + " bytes, got "))
+          << error;
+      }
+    }
+  }
+  EXPECT_GT(shortened, 7) << "two reads of the header and the rows, and all after them cut";
 }
 
 /// Those who cannot be read by several at once are not.

@@ -3,12 +3,10 @@
 #include "reader_helpers.h"
 
 #include "../support/many_columns.h"
+#include "../support/vtk_arrays.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellType.h"
 #include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
 
@@ -185,28 +183,17 @@ TEST(ReaderFieldData, SaysWhatThePointsAre)
   for (vtkFieldData* data : { reader.Particles()->GetFieldData(), reader.Box()->GetFieldData() })
   {
     ASSERT_EQ(data->GetNumberOfArrays(), 10); // no label, units or time: the file has none
-    const std::vector<double> box = { -0.05, -0.05, 0 };
-    const std::vector<double> vectors = { 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.15 };
-    ASSERT_EQ(data->GetArray("BoxOrigin")->GetNumberOfComponents(), 3);
-    ASSERT_EQ(data->GetArray("BoxVectors")->GetNumberOfComponents(), 9);
-    const std::vector<double> bounds = { -0.05, 0.05, -0.05, 0.05, 0, 0.15 };
-    ASSERT_EQ(data->GetArray("BoxBounds")->GetNumberOfComponents(), 6);
-    for (int i = 0; i < 6; ++i)
+    const auto tuple = [data](const char* name)
     {
-      EXPECT_EQ(data->GetArray("BoxBounds")->GetComponent(0, i), bounds[i]);
-    }
-    ASSERT_EQ(data->GetArray("PointOrigin")->GetNumberOfComponents(), 3);
-    for (int i = 0; i < 9; ++i)
-    {
-      EXPECT_EQ(data->GetArray("BoxVectors")->GetComponent(0, i), vectors[i]);
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      EXPECT_EQ(data->GetArray("BoxOrigin")->GetComponent(0, i), box[i]);
-      EXPECT_EQ(data->GetArray("PointOrigin")->GetComponent(0, i), 0);
-    }
+      EXPECT_EQ(data->GetArray(name)->GetNumberOfTuples(), 1) << name;
+      return ValuesOf(data->GetArray(name));
+    };
+    EXPECT_EQ(tuple("BoxOrigin"), (Values{ -0.05, -0.05, 0 }));
+    EXPECT_EQ(tuple("BoxVectors"), (Values{ 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.15 }));
+    EXPECT_EQ(tuple("BoxBounds"), (Values{ -0.05, 0.05, -0.05, 0.05, 0, 0.15 }));
+    EXPECT_EQ(tuple("PointOrigin"), (Values{ 0, 0, 0 }));
     EXPECT_TRUE(vtkTypeInt64Array::SafeDownCast(data->GetAbstractArray("timestep")));
-    EXPECT_EQ(data->GetArray("timestep")->GetComponent(0, 0), 1000);
+    EXPECT_EQ(tuple("timestep"), Values{ 1000 });
   }
   EXPECT_EQ(reader.Text("Coordinates"), "Absolute");
   EXPECT_EQ(reader.Text("Boundary"), "pp pp ff");
@@ -219,13 +206,8 @@ TEST(ReaderFieldData, SaysWhatThePointsAre)
     EXPECT_EQ(reader.Text("Columns", i), columns[i]);
   }
   EXPECT_EQ(reader.Text("Dialect"), "LIGGGHTS");
-  vtkDataArray* digits = reader.Particles()->GetFieldData()->GetArray("ColumnDigits");
-  ASSERT_EQ(digits->GetNumberOfTuples(), 9);
-  for (int i = 0; i < 9; ++i)
-  {
-    // xs ys zs have six, radii are 0.0025 and 0.0035, the others are integers
-    EXPECT_EQ(digits->GetTuple1(i), i >= 2 && i < 5 ? 6 : i == 8 ? 2 : 0) << i;
-  }
+  // xs ys zs have six, radii are 0.0025 and 0.0035, the others are integers
+  EXPECT_EQ(ValuesOf(reader.Field("ColumnDigits")), (Values{ 0, 0, 6, 6, 6, 0, 0, 0, 2 }));
 }
 
 TEST(ReaderFieldData, HasLabelUnitsAndTimeWhereTheFileHasThem)
@@ -252,18 +234,24 @@ TEST(ReaderBox, IsOneHexahedron)
   EXPECT_EQ(reader.Box()->GetCellType(0), VTK_HEXAHEDRON);
   EXPECT_EQ(reader.Box()->GetPoints()->GetDataType(), VTK_DOUBLE);
   const double* bounds = reader.Box()->GetBounds();
-  const double expected[] = { -0.05, 0.05, -0.05, 0.05, 0, 0.15 };
-  for (int i = 0; i < 6; ++i)
-  {
-    EXPECT_EQ(bounds[i], expected[i]);
-  }
+  EXPECT_EQ(Values(bounds, bounds + 6), (Values{ -0.05, 0.05, -0.05, 0.05, 0, 0.15 }));
 }
 
 TEST(ReaderBox, IsRightWhereItIsTilted)
 {
   Reader reader({ Good("tri_plain.dump") });
   reader->Update();
-  const std::vector<double> b = ReadPlain(Good("tri_plain.dump"))[0].bounds;
+  std::ifstream in(Good("tri_plain.dump"));
+  std::string line;
+  for (int i = 0; i < 5; ++i)
+  {
+    std::getline(in, line); // as far as the bounds
+  }
+  double b[9];
+  for (double& number : b)
+  {
+    in >> number;
+  }
   const double xy = b[2], xz = b[5], yz = b[8];
   const double lo[] = { b[0] - std::min({ 0., xy, xz, xy + xz }), b[3] - std::min(0., yz), b[6] };
   const double hi[] = { b[1] - std::max({ 0., xy, xz, xy + xz }), b[4] - std::max(0., yz), b[7] };
@@ -290,18 +278,13 @@ TEST(ReaderBox, FollowsTheFrameOfReferenceOfThePoints)
   reader->SetPointOrigin(1, 2, 3);
   reader->Update();
   const double* moved = reader.Box()->GetPoint(0);
-  EXPECT_DOUBLE_EQ(moved[0], -1);
-  EXPECT_DOUBLE_EQ(moved[1], -2);
-  EXPECT_DOUBLE_EQ(moved[2], -3);
+  EXPECT_EQ(Values(moved, moved + 3), (Values{ -1, -2, -3 }));
   reader->SetPointOrigin(0, 0, 0);
   reader->SetCoordinates(vtkGranularDumpReader::SCALED);
   reader->Update();
   EXPECT_EQ(reader.Text("Coordinates"), "Scaled");
   const double* bounds = reader.Box()->GetBounds();
-  for (int i = 0; i < 6; ++i)
-  {
-    EXPECT_EQ(bounds[i], i % 2);
-  }
+  EXPECT_EQ(Values(bounds, bounds + 6), (Values{ 0, 1, 0, 1, 0, 1 }));
 }
 
 TEST(ReaderArrays, ASecondIdColumnIsAnArrayAndNotThePedigree)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Coordinate styles, and which rows are kept.
+// Coordinate styles, and which rows are kept: what the settings do is for read_dump.cpp and rounding.cpp.
 #include "reader_helpers.h"
 
-#include <set>
+#include "../support/vtk_arrays.h"
 
 TEST(ReaderCoordinatesNotice, SaysOnceWhatItCannotGive)
 {
@@ -16,29 +16,6 @@ TEST(ReaderCoordinatesNotice, SaysOnceWhatItCannotGive)
   reader->SetVertices(vtkGranularDumpReader::NO_VERTICES);
   reader->Update();
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
-}
-
-TEST(ReaderPrecision, OriginIsSubtractedBeforeRounding)
-{
-  const std::string file = WriteFile("far.dump",
-    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n"
-    "1000000 1000001\n0 1\n0 1\nITEM: ATOMS id x y z\n"
-    "1 1000000.0000012345 0.5 0.25\n2 1000000.5 0 1\n");
-  Reader reader({ file });
-  reader->SetPointPrecision(vtkAlgorithm::SINGLE_PRECISION);
-  reader->SetPointOrigin(1e6, 0, 0);
-  reader->Update();
-  EXPECT_EQ(reader.Particles()->GetPoints()->GetDataType(), VTK_FLOAT);
-  const auto exact = static_cast<float>(1000000.0000012345 - 1e6);
-  EXPECT_EQ(reader.Particles()->GetPoint(0)[0], exact);
-  EXPECT_EQ(reader.Particles()->GetPoint(1)[0], 0.5);
-  EXPECT_EQ(reader.Field("PointOrigin")->GetComponent(0, 0), 1e6);
-  EXPECT_EQ(reader.Field("BoxOrigin")->GetComponent(0, 0), 1e6);
-  EXPECT_EQ(reader.Box()->GetBounds()[0], 0);
-  EXPECT_EQ(reader.Box()->GetBounds()[1], 1);
-  reader->SetPointOrigin(0, 0, 0);
-  reader->Update();
-  EXPECT_EQ(reader.Particles()->GetPoint(0)[0], 1e6);
 }
 
 /// Of two frames that lose digits the first is told, and the second where the origin is another that is no better.
@@ -55,6 +32,7 @@ TEST(ReaderPrecision, LostDigitsAreToldOnceAFile)
   Reader reader({ WriteFile("far.dump", text) });
   reader->SetPointPrecision(vtkAlgorithm::SINGLE_PRECISION);
   reader->UpdateTimeStep(1);
+  EXPECT_EQ(reader.Particles()->GetPoints()->GetDataType(), VTK_FLOAT);
   ASSERT_EQ(reader.Said->Warnings.size(), 1u);
   EXPECT_NE(reader.Said->Warnings[0].find("rounding to single precision moves points by up to 0.01 "
                                           "along x, where the smallest radius is 0.01; set "
@@ -65,86 +43,61 @@ TEST(ReaderPrecision, LostDigitsAreToldOnceAFile)
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
   reader->SetPointOrigin(1e6, 0, 0);
   reader->UpdateTimeStep(1);
+  EXPECT_EQ(reader.Particles()->GetPoint(0)[0], static_cast<float>(1000000.01 - 1e6));
+  EXPECT_EQ(reader.Field("PointOrigin")->GetComponent(0, 0), 1e6);
+  EXPECT_EQ(reader.Field("BoxOrigin")->GetComponent(0, 0), 1e6);
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
   reader->SetPointOrigin(-1e6, 0, 0);
   reader->UpdateTimeStep(1);
   EXPECT_EQ(reader.Said->Warnings.size(), 2u);
 }
 
-TEST(ReaderRows, StrideKeepsTheSameIdsInEveryFrame)
+TEST(ReaderRows, StrideRegionAndOrderArePassed)
 {
-  Reader reader({ Good("grains.dump") });
-  reader->SetStride(7);
-  std::vector<std::set<double>> kept;
-  for (double step : { 1000., 2000. })
+  Reader reader({ WriteFile(
+    "rows.dump", Frame(0, 4, "id x y z q", "6 3 0 0 60\n4 1 0 0 40\n2 9 0 0 20\n3 2 0 0 30\n")) });
+  const auto charges = [&reader]
   {
-    reader->UpdateTimeStep(step);
-    kept.emplace_back();
-    for (vtkIdType i = 0; i < reader.Particles()->GetNumberOfPoints(); ++i)
-    {
-      kept.back().insert(reader.Numbers("id")->GetComponent(i, 0));
-    }
-  }
-  std::set<double> expected;
-  for (int id = 7; id <= 1200; id += 7)
-  {
-    expected.insert(id);
-  }
-  EXPECT_EQ(kept[0], expected);
-  EXPECT_EQ(kept[1], expected);
-}
-
-TEST(ReaderRows, RegionIsInAbsoluteCoordinatesWhateverThePointsAre)
-{
-  const PlainFrame plain = ReadPlain(Good("grains.dump"))[2];
-  std::vector<double> expected;
-  for (std::size_t row = 0; row < plain.rows; ++row)
-  {
-    const double x = plain.Number("x", row), z = plain.Number("z", row);
-    if (x >= -0.02 && x <= 0.03 && z >= 0.01 && z <= 0.05)
-    {
-      expected.push_back(plain.Number("id", row));
-    }
-  }
-  ASSERT_GT(expected.size(), 10u);
-  for (int coordinates : { 0, 1, 2 })
-  {
-    Reader reader({ Good("grains.dump") });
-    reader->SetCoordinates(coordinates);
-    reader->SetPointOrigin(5, 5, 5);
-    reader->SetRegionOfInterest(-0.02, 0.03, 1, -1, 0.01, 0.05);
-    reader->UpdateTimeStep(2000);
-    std::vector<double> ids;
-    for (vtkIdType i = 0; i < reader.Particles()->GetNumberOfPoints(); ++i)
-    {
-      ids.push_back(reader.Numbers("id")->GetComponent(i, 0));
-    }
-    EXPECT_EQ(ids, expected) << coordinates;
-    EXPECT_EQ(reader.Numbers("v")->GetNumberOfTuples(), static_cast<vtkIdType>(ids.size()));
-    EXPECT_EQ(reader.Particles()->GetNumberOfVerts(), static_cast<vtkIdType>(ids.size()));
-  }
-}
-
-TEST(ReaderRows, SortingOrdersAllArraysById)
-{
-  const PlainFrame plain = ReadPlain(Good("grains.dump"))[1];
-  std::map<long, std::size_t> rows;
-  for (std::size_t row = 0; row < plain.rows; ++row)
-  {
-    rows[std::stol(plain.columns.at("id")[row])] = row;
-  }
-  Reader reader({ Good("grains.dump") });
+    reader->Update();
+    return ValuesOf(reader.Array("q"));
+  };
+  EXPECT_EQ(charges(), (Values{ 60, 40, 20, 30 }));
+  reader->SetStride(0);
+  EXPECT_EQ(reader.Said->Errors, std::vector<std::string>{ "Stride must be at least 1, got 0" });
+  reader->SetStride(2);
+  EXPECT_EQ(charges(), (Values{ 60, 40, 20 }));
+  reader->SetRegionOfInterest(0, 5, 1, -1, 0, 1);
+  EXPECT_EQ(charges(), (Values{ 60, 40 }));
+  EXPECT_EQ(reader.Particles()->GetNumberOfVerts(), 2);
   reader->SetSortById(true);
-  reader->UpdateTimeStep(1000);
-  ASSERT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
-  vtkIdType i = 0;
-  for (const auto& [id, row] : rows)
+  EXPECT_EQ(charges(), (Values{ 40, 60 }));
+}
+
+/// As a pipeline asks for them, one after the other; what is in them is for frame_parts.cpp.
+TEST(ReaderRows, PiecesTogetherAreTheWhole)
+{
+  for (const bool sorted : { false, true })
   {
-    ASSERT_EQ(reader.Numbers("id")->GetComponent(i, 0), id);
-    ASSERT_EQ(reader.Numbers("radius")->GetComponent(i, 0), plain.Number("radius", row));
-    ASSERT_EQ(reader.Numbers("omega")->GetComponent(i, 1), plain.Number("omegay", row));
-    ASSERT_EQ(reader.Numbers("type")->GetComponent(i, 0), plain.Number("type", row));
-    ASSERT_EQ(reader.Particles()->GetPoint(i)[2], plain.Number("z", row));
-    ++i;
+    Reader reader({ Good("pieces_1000.0.dump"), Good("pieces_1000.1.dump"),
+      Good("pieces_1000.2.dump"), Good("pieces_1000.3.dump") });
+    reader->SetSortById(sorted);
+    reader->Update();
+    const Values whole = ValuesOf(reader.Array("id"));
+    ASSERT_EQ(whole.size(), 1200u);
+    for (const int pieces : { 5, 1300 })
+    {
+      Values parts;
+      for (int piece = 0; piece < pieces; ++piece)
+      {
+        reader->UpdatePiece(piece, pieces, 0);
+        const Values part = ValuesOf(reader.Array("id"));
+        parts.insert(parts.end(), part.begin(), part.end());
+        EXPECT_EQ(reader.Particles()->GetNumberOfVerts(), static_cast<vtkIdType>(part.size()));
+        EXPECT_EQ(reader.Box()->GetNumberOfCells(), piece == 0 ? 1 : 0);
+        EXPECT_EQ(reader.Text("Coordinates"), "Absolute");
+      }
+      EXPECT_EQ(parts, whole) << pieces;
+    }
+    EXPECT_TRUE(reader.Said->Errors.empty());
   }
 }

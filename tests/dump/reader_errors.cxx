@@ -96,19 +96,6 @@ TEST(ReaderErrors, AnArrayThatNoFrameHasIsAWarning)
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
 }
 
-TEST(ReaderErrors, ASettingThatCannotBeIsRefused)
-{
-  Reader reader({ Good("grains.dump") });
-  reader->SetStride(0);
-  reader->SetTimestepSize(-1);
-  ASSERT_EQ(reader.Said->Errors.size(), 2u);
-  EXPECT_NE(reader.Said->Errors[0].find("Stride must be at least 1, got 0"), std::string::npos);
-  EXPECT_NE(reader.Said->Errors[1].find("TimestepSize must be finite and greater than 0, got -1"),
-    std::string::npos);
-  EXPECT_EQ(reader->GetStride(), 1);
-  EXPECT_EQ(reader->GetTimestepSize(), 1);
-}
-
 TEST(ReaderCanReadFile, LooksAtTheContent)
 {
   EXPECT_TRUE(vtkGranularDumpReader::CanReadFile(Good("grains.dump").c_str()));
@@ -116,22 +103,6 @@ TEST(ReaderCanReadFile, LooksAtTheContent)
   EXPECT_FALSE(vtkGranularDumpReader::CanReadFile(GRANULAR_OUTPUT));
   EXPECT_FALSE(vtkGranularDumpReader::CanReadFile("/no/such/file.dump"));
   EXPECT_FALSE(vtkGranularDumpReader::CanReadFile(nullptr));
-}
-
-TEST(ReaderErrors, TheSameNoticeOfEveryFrameIsOneWarning)
-{
-  std::string text;
-  for (int step = 0; step < 6; ++step)
-  {
-    text += Frame(step, 1, "id x y", "1 0 0\n");
-  }
-  Reader reader({ WriteFile("flat.dump", text) });
-  for (int step = 0; step < 6; ++step)
-  {
-    reader->UpdateTimeStep(step);
-  }
-  ASSERT_EQ(reader.Said->Warnings.size(), 1u);
-  EXPECT_NE(reader.Said->Warnings[0].find("no column for the coordinate z"), std::string::npos);
 }
 
 TEST(ReaderErrors, AColumnThatIsWidenedInEveryFrameIsOneWarning)

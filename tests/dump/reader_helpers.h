@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of vtkGranularDumpReader share: a plain parser of their own, small files, and the
-// messages that VTK prints.
+// What the tests of vtkGranularDumpReader share: small files, and the messages that VTK prints.
 #ifndef tests_dump_reader_helpers_h
 #define tests_dump_reader_helpers_h
 
@@ -23,10 +22,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -46,73 +43,6 @@ inline std::string WriteFile(const std::string& name, const std::string& text)
   std::ofstream out(folder / name, std::ios::binary);
   out << text;
   return (folder / name).string();
-}
-
-/// A frame of a text dump, read with the simplest means.
-struct PlainFrame
-{
-  long timestep = 0;
-  std::vector<double> bounds; ///< lo hi [tilt] of each axis
-  std::map<std::string, std::vector<std::string>> columns;
-  std::size_t rows = 0;
-
-  double Number(const std::string& column, std::size_t row) const
-  {
-    return std::strtod(this->columns.at(column)[row].c_str(), nullptr);
-  }
-};
-
-inline std::vector<PlainFrame> ReadPlain(const std::string& path)
-{
-  std::vector<PlainFrame> frames;
-  std::ifstream in(path);
-  std::string line;
-  while (std::getline(in, line))
-  {
-    if (line == "ITEM: TIMESTEP")
-    {
-      frames.emplace_back();
-      std::getline(in, line);
-      frames.back().timestep = std::stol(line);
-    }
-    else if (line == "ITEM: NUMBER OF ATOMS")
-    {
-      std::getline(in, line);
-      frames.back().rows = std::stoul(line);
-    }
-    else if (line.rfind("ITEM: BOX BOUNDS", 0) == 0)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        std::getline(in, line);
-        std::istringstream numbers(line);
-        for (double number; numbers >> number;)
-        {
-          frames.back().bounds.push_back(number);
-        }
-      }
-    }
-    else if (line.rfind("ITEM: ATOMS", 0) == 0)
-    {
-      std::istringstream words(line.substr(11));
-      std::vector<std::string> names;
-      for (std::string name; words >> name;)
-      {
-        names.push_back(name);
-        frames.back().columns[name];
-      }
-      for (std::size_t row = 0; row < frames.back().rows; ++row)
-      {
-        for (const std::string& name : names)
-        {
-          std::string word;
-          in >> word;
-          frames.back().columns[name].push_back(word);
-        }
-      }
-    }
-  }
-  return frames;
 }
 
 /// Keeps the text of errors and warnings instead of printing them.

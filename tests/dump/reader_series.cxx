@@ -4,8 +4,6 @@
 
 #include "vtkCallbackCommand.h"
 
-#include <iterator>
-
 namespace
 {
 namespace fs = std::filesystem;
@@ -32,12 +30,6 @@ std::string Particle(long step)
 void Append(const std::string& file, const std::string& text)
 {
   std::ofstream(file, std::ios::binary | std::ios::app) << text;
-}
-
-std::string ReadAll(const std::string& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return { std::istreambuf_iterator<char>(in), {} };
 }
 
 /// Counts how often a reader reads.
@@ -74,8 +66,10 @@ TEST(ReaderSeries, RepeatedStepsSaysWhetherTheyAre)
   reader->SetRepeatedSteps(vtkGranularDumpReader::MERGE);
   reader->Update();
   EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), 1200);
-  EXPECT_EQ(reader.Numbers("id")->GetComponent(0, 0),
-    ReadPlain(Good("pieces_1000.2.dump"))[0].Number("id", 0)); // in the order of the files
+  Reader first({ Good("pieces_1000.2.dump") });
+  first->Update();
+  EXPECT_EQ(reader.Numbers("id")->GetComponent(0, 0), first.Numbers("id")->GetComponent(0, 0))
+    << "in the order of the files";
   EXPECT_EQ(reader.Said->Warnings.size(), 1u);
   for (const int wrong : { 7, -1 })
   {
@@ -185,67 +179,4 @@ TEST(ReaderSeries, WhatWasChosenStaysWhenFramesAreAdded)
   EXPECT_EQ(reader.Array("v"), nullptr);
   EXPECT_NE(reader.Array("q"), nullptr);
   EXPECT_NE(reader.Array("f"), nullptr) << "new arrays are on";
-}
-
-TEST(ReaderSeries, AGrowingFileSaysNothingTwice)
-{
-  const std::string file = WriteFile("a.dump", Particle(0) + "garbage\n" + Particle(10));
-  Reader reader({ file });
-  reader->SetRefreshOnUpdate(true);
-  reader->Update();
-  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
-  for (long step = 20; step < 100; step += 10)
-  {
-    Append(file, Particle(step));
-    reader->UpdateTimeStep(static_cast<double>(step));
-    EXPECT_EQ(reader.Particles()->GetPoint(0)[0], static_cast<double>(step));
-  }
-  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
-  EXPECT_TRUE(reader.Said->Errors.empty());
-}
-
-// ---- columns without names ---------------------------------------------------------------------
-
-TEST(ReaderSeries, ColumnNamesAreNotForFilesThatHaveThem)
-{
-  for (const char* name : { "grains_1000.dump", "ortho_custom.bin", "ortho_000050.dump.gz" })
-  {
-    Reader plain({ Good(name) });
-    plain->Update();
-    Reader reader({ Good(name) });
-    reader->SetColumnNames("these are not used");
-    reader->Update();
-    EXPECT_TRUE(reader.Said->Errors.empty());
-    EXPECT_TRUE(reader.Said->Warnings.empty());
-    EXPECT_EQ(reader.Particles()->GetPointData()->GetNumberOfArrays(),
-      plain.Particles()->GetPointData()->GetNumberOfArrays());
-    EXPECT_EQ(reader.Particles()->GetNumberOfPoints(), plain.Particles()->GetNumberOfPoints());
-    EXPECT_GT(reader.Particles()->GetNumberOfPoints(), 0);
-  }
-}
-
-// ---- compressed files --------------------------------------------------------------------------
-
-TEST(ReaderSeries, ADamagedFileIsAnErrorAndAmongOthersAWarning)
-{
-  std::string bytes = ReadAll(Good("ortho_000050.dump.gz"));
-  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
-  bytes[bytes.size() / 2 + 1] = static_cast<char>(bytes[bytes.size() / 2 + 1] ^ 0x55);
-  const std::string damaged = WriteFile("ortho_000050.dump.gz", bytes);
-  Reader reader({ damaged });
-  reader->Update();
-  ASSERT_EQ(reader.Said->Errors.size(), 1u);
-  EXPECT_EQ(reader.Said->Errors[0].substr(0, damaged.size() + 1), damaged + "@");
-  EXPECT_EQ(reader->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::FileFormatError));
-  ExpectEmpty(reader);
-  ExpectGood(reader);
-
-  Reader others({ Good("ortho_000000.dump.gz"), damaged, Good("ortho_000100.dump.gz") });
-  EXPECT_EQ(others.Times(), (std::vector<double>{ 0, 100 }));
-  ASSERT_EQ(others.Said->Warnings.size(), 1u);
-  EXPECT_EQ(others.Said->Warnings[0].substr(0, damaged.size() + 1), damaged + "@");
-  EXPECT_NE(others.Said->Warnings[0].find("; the file is left out"), std::string::npos);
-  others->UpdateTimeStep(100);
-  EXPECT_EQ(others.Particles()->GetNumberOfPoints(), 500);
-  EXPECT_TRUE(others.Said->Errors.empty());
 }

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -594,14 +593,6 @@ TEST(TextDump, ZerosAtTheEndDoNotHideTheFramesBefore)
       EXPECT_EQ(dump.frames(), 2u) << zeros << " zeros behind '" << start << "'";
     }
   }
-}
-
-TEST(TextDump, GarbageBetweenFrames)
-{
-  const std::string good = one_frame("id x y z", "1 2 3 4\n");
-  const Dump dump(good + "LIGGGHTS was here\n" + good);
-  EXPECT_EQ(dump.said(), "memory:1: expected 1 rows, got 2; the frame is left out\n");
-  EXPECT_EQ(dump.frames(), 1u);
 }
 
 // ---- cut anywhere ------------------------------------------------------------------------------

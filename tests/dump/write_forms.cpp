@@ -124,30 +124,3 @@ TEST(WriteForms, no_atoms)
     }
   }
 }
-
-/// By hand: a corner at (1, 2, 3), vectors (10, 0, 0), (-3, 8, 0) and (2, 4, 5).
-TEST(WriteForms, bounding_box_of_a_tilted_box)
-{
-  Box box;
-  box.tilted = true;
-  box.origin = { Twofold{ 1, 0 }, Twofold{ 2, 0 }, Twofold{ 3, 0 } };
-  box.vectors[0] = { Twofold{ 10, 0 }, Twofold{}, Twofold{} };
-  box.vectors[1] = { Twofold{ -3, 0 }, Twofold{ 8, 0 }, Twofold{} };
-  box.vectors[2] = { Twofold{ 2, 0 }, Twofold{ 4, 0 }, Twofold{ 5, 0 } };
-  box.boundary = "pp pp pp";
-  const std::vector<double> points = { 1, 2, 3, 10, 14, 8, 5.5, 8, 5.5 };
-  const std::vector<std::int64_t> ids = { 1, 2, 3 };
-  const std::vector<std::int32_t> types = { 1, 1, 2 };
-  const AtomRows atoms = { 3, ids.data(), types.data(), points.data(), nullptr };
-  FrameHeader header;
-  header.box = box;
-  const Folder folder;
-  const Form form{ { true, false }, true, false };
-  const Written written = write_dump(folder.path("atoms"), Frames{ view_atoms(atoms, header) },
-    atom_format(form, Dialect::Liggghts));
-  EXPECT_EQ(written.error, "");
-  EXPECT_EQ(written.bytes,
-    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz pp pp pp\n"
-    "-2 13 -3\n2 14 2\n3 8 4\nITEM: ATOMS id type xs ys zs\n"
-    "1 1 0 0 0\n2 1 1 1 1\n3 2 0.5 0.5 0.5\n");
-}

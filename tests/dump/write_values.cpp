@@ -197,25 +197,6 @@ TEST(WriteValues, no_box)
     "expected a box on all ranks or on none, got one on some (on rank 0 of 2)");
 }
 
-TEST(WriteValues, no_rows)
-{
-  const std::string text = one_frame("id type x y z radius", "");
-  const ReadFrameView read(Dump(text).read().frame);
-  const Folder folder;
-  DumpFormat format;
-  format.dialect = Dialect::Liggghts;
-  const std::string written = replaced(text, "radius\n", "radius \n");
-  const std::string step = "TIMESTEP\n" + std::to_string(read.view.header.timestep) + "\n";
-  FrameView next = read.view;
-  ++next.header.timestep;
-  EXPECT_EQ(write_dump(folder.path("a"), Frames{ read.view, next }, format).bytes,
-    written + replaced(written, step, "TIMESTEP\n" + std::to_string(next.header.timestep) + "\n"));
-  format.binary = true;
-  const std::string bytes = write_dump(folder.path("a"), Frames{ read.view, next }, format).bytes;
-  EXPECT_EQ(bytes.size(), 2U * 104U) << "a header, and the length 0 of one chunk";
-  EXPECT_EQ(Dump(bytes, "id type x y z radius").frames(), 2U);
-}
-
 /// The box of LIGGGHTS has six digits, or all where these would move particles: nothing is lost, and nothing is told.
 TEST(WriteValues, digits_of_the_box)
 {

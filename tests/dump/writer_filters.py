@@ -111,13 +111,4 @@ single = open_dump("grains.dump", PointPrecision="Single")
 frame = written(single, 2000)
 assert (frame.stack(["x", "y", "z"]) == where.astype(numpy.float32)).all()
 
-thin = open_dump("grains.dump", Stride=10)
-frame = written(thin, 2000)
-kept = ids(all_particles) % 10 == 0
-assert (ids(frame) == ids(all_particles)[kept]).all() and (frame.stack(["x", "y", "z"]) == where[kept]).all()
-part = open_dump("grains.dump", RegionOfInterest=[1, -1, 1, -1, 0.02, 0.06])
-frame = written(part, 2000)
-kept = (where[:, 2] >= 0.02) & (where[:, 2] <= 0.06)
-assert 0 < kept.sum() < all_particles.rows
-assert (ids(frame) == ids(all_particles)[kept]).all() and (frame.stack(["x", "y", "z"]) == where[kept]).all()
 print("right")
