@@ -6,7 +6,6 @@
 #include "../support/error_of.h"
 #include "../support/exact_decimal.h"
 #include "../support/hard_case.h"
-#include "granular/numbers/number_print_few.h"
 
 #include <gtest/gtest.h>
 
@@ -281,27 +280,6 @@ TEST(PrintNumber, Ties)
   EXPECT_GT(ties, 20'000);
 }
 
-// All numbers of few bits that have a size as in dumps.
-TEST(PrintNumber, SmallDyadicFractions)
-{
-  for (int denominator = 0; denominator <= 12; ++denominator)
-  {
-    for (int numerator = 1; numerator < 8192; ++numerator)
-    {
-      const double value = std::ldexp(numerator, -denominator);
-      ASSERT_EQ(printed(value, 6), by_printf(value, 6));
-    }
-  }
-}
-
-TEST(PrintNumber, IntegersOfSevenDigits)
-{
-  for (int value = 999'900; value < 1'100'000; ++value)
-  {
-    ASSERT_EQ(printed(value, 6), by_printf(value, 6));
-  }
-}
-
 // Closer to a half of the last digit than 64 bits of a power of ten tell, found by continued fractions.
 TEST(PrintNumber, NearTies)
 {
@@ -358,21 +336,6 @@ TEST(PrintNumber, EqualsPrintfForUsualNumbers)
     const double value = usual_double(random);
     const int digits = i % 2 == 0 ? 6 : 1 + static_cast<int>(i / 2 % most_digits);
     ASSERT_EQ(printed(value, digits), by_printf(value, digits)) << hexadecimal(value);
-  }
-}
-
-TEST(PrintNumber, EqualsExactArithmetic)
-{
-  std::mt19937_64 random(3);
-  const std::int64_t count = numbers_to_try(200'000);
-  for (std::int64_t i = 0; i < count && !::testing::Test::HasFatalFailure(); i += 1000)
-  {
-    expect_as_exact(random_double(random));
-    for (int usual = 0; usual < 30; ++usual)
-    {
-      const double value = usual_double(random);
-      expect_as_exact(value == 0 ? 1 : value);
-    }
   }
 }
 
