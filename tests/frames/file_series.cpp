@@ -836,39 +836,6 @@ TEST(Pieces, TheVeryFirstStepIsBeingWritten)
   }
 }
 
-TEST(Pieces, OfFilesThatGrowTheLastFrameWaitsForAll)
-{
-  const Folder folder;
-  const auto frame = [](int process, int step)
-  { return particles(step, ids_from(10 * process, 2)); };
-  for (const int processes : { 2, 3 })
-  {
-    Files files;
-    for (int process = 0; process < processes; ++process)
-    {
-      files.push_back(folder.write("d." + std::to_string(process), frame(process, 0)));
-    }
-    Series run;
-    run.update(files);
-    EXPECT_EQ(run.steps(), Steps{ 0 });
-    // one process after the other, each in two parts
-    for (int process = 0; process < processes; ++process)
-    {
-      const std::string name = "d." + std::to_string(process);
-      const std::string text = frame(process, 10);
-      folder.append(name, text.substr(0, 50));
-      run.update(files);
-      EXPECT_EQ(run.steps(), Steps{ 0 }) << process;
-      EXPECT_EQ(run.said, "") << process;
-      folder.append(name, text.substr(50));
-      run.update(files);
-      EXPECT_EQ(run.steps(), process + 1 < processes ? Steps{ 0 } : (Steps{ 0, 10 })) << process;
-      EXPECT_EQ(run.said, "") << process;
-      expect_all_pieces(run, processes, std::to_string(process) + " has written");
-    }
-  }
-}
-
 TEST(Pieces, ARestartOfWhichSomeAreNotWrittenDoesNotHideTheFirstRun)
 {
   const Folder folder;
