@@ -6,6 +6,7 @@
 #include "vtkGranularDumpReader.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDataArraySelection.h"
@@ -173,6 +174,22 @@ public:
   static constexpr int Every = -1;
   int At = Never;
   std::vector<double> Reported;
+};
+
+/// Counts how often a reader reads.
+class Executions
+{
+public:
+  explicit Executions(Reader& reader)
+  {
+    vtkNew<vtkCallbackCommand> start;
+    start->SetClientData(&this->Count);
+    start->SetCallback(
+      [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+    reader->AddObserver(vtkCommand::StartEvent, start);
+  }
+
+  int Count = 0;
 };
 
 #endif

@@ -2,8 +2,6 @@
 // Runs in many files, files that grow, and what the user says about them, through VTK.
 #include "reader_helpers.h"
 
-#include "vtkCallbackCommand.h"
-
 namespace
 {
 namespace fs = std::filesystem;
@@ -31,22 +29,6 @@ void Append(const std::string& file, const std::string& text)
 {
   std::ofstream(file, std::ios::binary | std::ios::app) << text;
 }
-
-/// Counts how often a reader reads.
-class Executions
-{
-public:
-  explicit Executions(Reader& reader)
-  {
-    vtkNew<vtkCallbackCommand> start;
-    start->SetClientData(&this->Count);
-    start->SetCallback(
-      [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
-    reader->AddObserver(vtkCommand::StartEvent, start);
-  }
-
-  int Count = 0;
-};
 }
 
 // ---- pieces ------------------------------------------------------------------------------------

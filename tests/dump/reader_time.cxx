@@ -2,10 +2,7 @@
 // Frames and times.
 #include "reader_helpers.h"
 
-#include "vtkCallbackCommand.h"
-
 #include <cmath>
-#include <functional>
 
 namespace
 {
@@ -65,16 +62,10 @@ TEST(ReaderTime, BothOutputsOfATimeAreReadOnce)
 {
   Reader reader({ Good("grains.dump") });
   reader->UpdateInformation();
-  int executions = 0;
-  const std::function<void()> count = [&executions] { ++executions; };
-  vtkNew<vtkCallbackCommand> start;
-  start->SetClientData(const_cast<std::function<void()>*>(&count));
-  start->SetCallback([](vtkObject*, unsigned long, void* data, void*)
-    { (*static_cast<std::function<void()>*>(data))(); });
-  reader->AddObserver(vtkCommand::StartEvent, start);
+  Executions executions(reader);
   for (double time : { 1500., 2000. })
   {
-    executions = 0;
+    executions.Count = 0;
     for (int round = 0; round < 2; ++round)
     {
       for (int port : { 0, 1 })
@@ -84,10 +75,11 @@ TEST(ReaderTime, BothOutputsOfATimeAreReadOnce)
         reader->Update(port);
       }
     }
-    EXPECT_LE(executions, 2); // once; twice where the pipeline cannot tell that 1500 shows 1000
+    EXPECT_LE(
+      executions.Count, 2); // once; twice where the pipeline cannot tell that 1500 shows 1000
     EXPECT_EQ(DataTime(reader.Box()), DataTime(reader.Particles()));
   }
-  EXPECT_EQ(executions, 1);
+  EXPECT_EQ(executions.Count, 1);
 }
 
 TEST(ReaderTime, TimestepSizeMustBeGreaterThanZero)
