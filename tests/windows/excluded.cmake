@@ -13,7 +13,7 @@ set(granular_posix_tests
 
 string(JOIN ":" granular_posix_cases
   OpenFile.RefusesWhatIsNoFile CInterface.AFileOfWhichTheSystemDoesNotTellIsAnError # std::filesystem makes no links here
-  OpenFile.RefusesAPipeWithoutWaiting RunIndex.ErrorsSayWhatIsWrongWithTheFirstFile # a pipe with a name
+  OpenFile.RefusesAPipeWithoutWaiting # a pipe with a name
   OpenFile.NoPermission CWriting.FilesThatAProgramWritesItself # permissions by bits
   OpenFile.AReplacedFileHasAnotherStamp # std::filesystem does not replace an open file
   Communicator.one_process_opens_a_file Communicator.threads_open_a_file # below a file: Windows says that there is no such folder
