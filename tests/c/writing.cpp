@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that are written through the C interface: those of real runs get their bytes back, and arrays of a program the text
-// that it expects.
+// Files that are written through the C interface: that of a real run gets its bytes back, and arrays of a program the text that
+// it expects.
 #include "handles.h"
 
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 
@@ -17,41 +16,6 @@ std::string output(const std::string& name)
   return std::string(GRANULAR_OUTPUT) + "/" + name;
 }
 
-/// Writes all frames of a run, with the arrays that its file has.
-void copy_run(const std::string& from, const std::string& to,
-  const granular_format* format = nullptr, const granular_open_options* options = nullptr)
-{
-  const RunHandle run = open_run(from, options);
-  ASSERT_NE(run, nullptr);
-  granular_run_facts facts = {};
-  granular_run_info(run.get(), &facts);
-  granular_writer* writer = nullptr;
-  ASSERT_EQ(granular_create(to.c_str(), format, &writer), GRANULAR_OK) << message();
-  for (std::int64_t i = 0; i < facts.frames; ++i)
-  {
-    std::size_t count = 0;
-    granular_arrays(run.get(), i, 0, nullptr, 0, &count);
-    std::vector<granular_array_facts> arrays(count);
-    granular_arrays(run.get(), i, 0, arrays.data(), count, &count);
-    std::vector<const char*> names = { "points" };
-    for (const granular_array_facts& array : arrays)
-    {
-      // of a dump, coordinates are the points; of local data, ends are as the file has them
-      if (array.is_usual != 0 || facts.kind == GRANULAR_KIND_LOCAL)
-      {
-        names.push_back(array.name);
-      }
-    }
-    granular_request request;
-    granular_request_init(&request);
-    request.arrays = names.data();
-    request.array_count = names.size();
-    const FrameHandle frame = read_frame(run, i, &request);
-    ASSERT_EQ(granular_write_frame(writer, frame.get()), GRANULAR_OK) << message();
-  }
-  ASSERT_EQ(granular_finish(writer), GRANULAR_OK) << message();
-}
-
 granular_array numbers(const char* name, const std::vector<double>& values, int components = 1)
 {
   return { name, GRANULAR_FLOAT64, components,
@@ -60,52 +24,17 @@ granular_array numbers(const char* name, const std::vector<double>& values, int 
 }
 }
 
-TEST(CWriting, FilesOfRealRunsGetTheirBytesBack)
+TEST(CWriting, AFileOfARealRunGetsItsBytesBack)
 {
-  for (const std::string name : { "grains.dump", "ortho_plain.dump", "ortho_scaled.dump",
-         "tri_image.dump", "tri_plain.dump", "chain.dump" })
+  const RunHandle run = open_run(good("grains.dump"));
+  granular_writer* writer = nullptr;
+  ASSERT_EQ(granular_create(output("grains.dump").c_str(), nullptr, &writer), GRANULAR_OK);
+  for (const std::int64_t i : { 0, 1, 2 })
   {
-    SCOPED_TRACE(name);
-    copy_run(good(name), output(name));
-    EXPECT_EQ(content(output(name)), content(good(name)));
+    ASSERT_EQ(granular_write_frame(writer, read_frame(run, i).get()), GRANULAR_OK) << message();
   }
-  granular_format bonds;
-  granular_format_init(&bonds);
-  bonds.style = "local";
-  copy_run(good("euler_4000.vtk"), output("cells.euler"));
-  EXPECT_EQ(content(output("cells.euler")), content(good("euler_4000.vtk")));
-}
-
-TEST(CWriting, DecompositionsOfTheirDialects)
-{
-  granular_format format;
-  granular_format_init(&format);
-  format.dialect = "PUBLIC";
-  copy_run(good("decomposition_1000.vtk"), output("public.decomposition"), &format);
-  EXPECT_EQ(content(output("public.decomposition")), content(good("decomposition_1000.vtk")));
-  copy_run(good("decomposition_1000.vtk"), output("inl.decomposition"));
-  granular_open_options
-    options; // without counts of particles nothing in the file says that these are subdomains
-  granular_open_options_init(&options);
-  options.kind = GRANULAR_KIND_DECOMPOSITION;
-  const RunHandle again = open_run(output("inl.decomposition"), &options);
-  const RunHandle first = open_run(good("decomposition_1000.vtk"));
-  for (const char* name : { "lo", "hi" })
-  {
-    EXPECT_EQ(doubles(read_frame(again, 0), name), doubles(read_frame(first, 0), name));
-  }
-}
-
-TEST(CWriting, AFileForEachFrameAndPacked)
-{
-  copy_run(good("grains.dump"), output("step_*.dump.gz"));
-  for (const int step : { 0, 1000, 2000 })
-  {
-    EXPECT_TRUE(fs::exists(output("step_" + std::to_string(step) + ".dump.gz"))) << step;
-  }
-  const RunHandle run = open_run(output("step_*.dump.gz"));
-  const RunHandle first = open_run(good("grains.dump"));
-  EXPECT_EQ(doubles(read_frame(run, -1), "v"), doubles(read_frame(first, -1), "v"));
+  ASSERT_EQ(granular_finish(writer), GRANULAR_OK) << message();
+  EXPECT_EQ(content(output("grains.dump")), content(good("grains.dump")));
 }
 
 TEST(CWriting, ArraysOfAProgram)
@@ -138,52 +67,6 @@ TEST(CWriting, ArraysOfAProgram)
   EXPECT_EQ(content(output("mine.dump")),
     "ITEM: TIMESTEP\n42\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp ff\n0 3\n0 4\n0 5\n"
     "ITEM: ATOMS id element x y z vx vy vz \n5 Cu 2 2.5 0.1 0 -1e-300 3 \n7 Fe 0.5 1 1.5 1 0 0 \n");
-}
-
-TEST(CWriting, BondsAndCellsAndSubdomainsOfAProgram)
-{
-  const std::vector<double> ends = { 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0 };
-  const std::vector<double> id1 = { 1, 2 };
-  const std::vector<double> id2 = { 2, 3 };
-  const granular_array lines[] = { numbers("id1", id1), numbers("id2", id2),
-    numbers("ends", ends, 6) };
-  const auto write =
-    [](const std::string& path, const granular_array* arrays, std::size_t count, std::int64_t rows)
-  {
-    granular_content made;
-    granular_content_init(&made);
-    made.rows = rows;
-    made.arrays = arrays;
-    made.array_count = count;
-    granular_writer* writer = nullptr;
-    ASSERT_EQ(granular_create(path.c_str(), nullptr, &writer), GRANULAR_OK) << message();
-    ASSERT_EQ(granular_write(writer, &made), GRANULAR_OK) << message();
-    ASSERT_EQ(granular_finish(writer), GRANULAR_OK) << message();
-  };
-  write(output("mine.bonds"), lines, 3, 2);
-  EXPECT_EQ(content(output("mine.bonds")),
-    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n2\nITEM: ENTRIES id1 id2 x1 y1 z1 x2 y2 z2 \n"
-    "1 2 0 0 0 1 0 0 \n2 3 1 0 0 1 1 0 \n");
-  const RunHandle bonds = open_run(output("mine.bonds"));
-  EXPECT_EQ(doubles(read_frame(bonds, 0), "ends"), ends);
-
-  const std::vector<double> centres = { 0.5, 0.5, 0.5, 1.5, 0.5, 0.5 };
-  const std::vector<double> v = { 1, 2, 3, 1.0 / 3, 0, 0 };
-  const std::vector<double> ones = { 0.25, 1.0 / 3 };
-  const granular_array cells[] = { numbers("points", centres, 3), numbers("v_avg", v, 3),
-    numbers("volumefraction", ones), numbers("radius", ones), numbers("pressure", ones) };
-  write(output("mine.euler"), cells, 5, 2);
-  EXPECT_EQ(doubles(read_frame(open_run(output("mine.euler")), 0), "v_avg"), v);
-
-  const std::vector<double> lo = { 0, 0, 0, 1, 0, 0 };
-  const std::vector<double> hi = { 1, 1, 1, 2, 1, 1 };
-  const std::vector<std::int64_t> nlocal = { 10, 20 };
-  const granular_array domains[] = { numbers("lo", lo, 3), numbers("hi", hi, 3),
-    { "nlocal", GRANULAR_INT64, 1, 2, nlocal.data(), nullptr, 0, "", "", "", nullptr } };
-  write(output("mine.decomposition"), domains, 3, 2);
-  const FrameHandle read = read_frame(open_run(output("mine.decomposition")), 0);
-  EXPECT_EQ(doubles(read, "hi"), hi);
-  EXPECT_EQ(static_cast<const std::int64_t*>(array_of(read, "nlocal").data)[1], 20);
 }
 
 // A frame that fails in its middle would leave a part of it in the file.

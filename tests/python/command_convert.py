@@ -66,13 +66,9 @@ for mine, text in zip(plain_dump.read("part.dump"), frames[::2]):
 granular("convert", SOURCE, "atom.dump", "--style", "atom", "--dialect", "LAMMPS", "--numbers", "%.3g")
 assert list(plain_dump.read("atom.dump")[-1].columns) == ["id", "type", "xs", "ys", "zs"]
 
-# other kinds of data keep their bytes
-for name, out in (("euler_1000.vtk", "cells.euler"),):
-    granular("convert", os.path.join(GOOD, name), out)
-    assert content(out) == content(os.path.join(GOOD, name))
-granular("convert", os.path.join(SAMPLES, "bonds", "settled_contacts.dump.gz"), "contacts.bonds")
-granular("convert", os.path.join(GOOD, "decomposition_1000.vtk"), "grid.decomposition", "--dialect", "PUBLIC")
-assert content("grid.decomposition") == content(os.path.join(GOOD, "decomposition_1000.vtk"))
+# another kind of data keeps its bytes
+granular("convert", os.path.join(GOOD, "euler_1000.vtk"), "cells.euler")
+assert content("cells.euler") == content(os.path.join(GOOD, "euler_1000.vtk"))
 
 # numpy and tables
 clean()

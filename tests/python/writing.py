@@ -93,7 +93,7 @@ read = vg.open("general.dump")[0].box
 assert numpy.array_equal(read.vectors, general.vectors) and numpy.array_equal(read.origin, general.origin)
 
 # files of real runs get their bytes back, with any number of threads; parts of them are what a plain reading has
-for name in ("grains.dump", "ortho_scaled.dump", "tri_image.dump", "tri_plain.dump"):
+for name in ("grains.dump", "ortho_plain.dump", "ortho_scaled.dump", "tri_image.dump", "tri_plain.dump", "chain.dump"):
     for threads in (1, 2, 5):
         vg.write("again.dump", vg.open(os.path.join(GOOD, name)), threads=threads)
         assert text_of("again.dump") == text_of(os.path.join(GOOD, name)), name
