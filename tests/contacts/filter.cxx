@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The filter from C++: inputs of any kind, which stay as they are; pieces; stopping; printing.
+// The filter from C++: inputs of any kind, which stay as they are; pieces; stopping.
 #include "vtkGranularContactSums.h"
 
 #include "../support/observer.h"
@@ -34,7 +34,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -427,25 +426,4 @@ TEST(ContactSums, ChangesOfTheSelection)
   filter->Update();
   EXPECT_TRUE(filter.Points("fabric").empty());
   EXPECT_FALSE(filter.Points("contact_stress").empty());
-}
-
-TEST(ContactSums, PrintsAllProperties)
-{
-  Filter filter(MakeParticles(2), MakeLines(1));
-  filter->SetLeverArm(vtkGranularContactSums::HALF_BRANCH);
-  filter->SetMinimumForce(0.25);
-  filter->SetMinimumOverlap(1e-7);
-  filter->SetRattlerContacts(4);
-  filter->SetFrictionCoefficient(0.5);
-  filter->SetRadiusArray("size");
-  std::ostringstream out;
-  filter->Print(out);
-  for (const char* line : { "LeverArm: 1\n", "MinimumForce: 0.25\n", "MinimumOverlap: 1e-07\n",
-         "RattlerContacts: 4\n", "FrictionCoefficient: 0.5\n", "RadiusArray: size\n",
-         "ArraySelection:\n", "Threads: 0\n", "Controller: " })
-  {
-    EXPECT_NE(out.str().find(line), std::string::npos) << line;
-  }
-  filter->SetRadiusArray(nullptr);
-  filter->Print(out);
 }

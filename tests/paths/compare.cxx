@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The filter from C++: what particles and lines get, which frames are read, inputs that are none, pieces, stopping, printing.
+// The filter from C++: what particles and lines get, which frames are read, inputs that are none, pieces, stopping.
 #include "vtkGranularCompare.h"
 
 #include "../support/observer.h"
@@ -35,7 +35,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -554,20 +553,5 @@ TEST(Compare, StopsWhereverItIsAsked)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << at;
     filter->UpdateTimeStep(1);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 50000) << at;
-  }
-}
-
-TEST(Compare, PrintsAllProperties)
-{
-  Filter filter(TwoFrames());
-  filter->SetReference(vtkGranularCompare::TIME);
-  filter->SetReferenceTime(0.25);
-  filter->SetDifferences("v");
-  std::ostringstream out;
-  filter->Print(out);
-  for (const char* line : { "Reference: 2\n", "ReferenceTime: 0.25\n", "Differences: v\n",
-         "MassArray: mass\n", "Threads: 0\n", "Controller: " })
-  {
-    EXPECT_NE(out.str().find(line), std::string::npos) << line;
   }
 }

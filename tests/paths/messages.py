@@ -338,16 +338,4 @@ for properties in ({}, {"PeriodicLines": 1}, {"Ids": "3 9"}, {"Ids": "99"}):
         assert part.GetOutput().GetNumberOfPoints() == sum(len(line["time"]) for each in lines.values() for line in each)
         found.update(lines)
     assert plain_paths.same(dict(sorted(found.items())), dict(sorted(expected.items()))), properties
-
-# ---- properties are printed ----------------------------------------------------------------------------------------
-
-trajectories = filter_of("Trajectories", reader_of(walk))
-set_all(trajectories, Ids="5-9", Arrays="v", Tail=3)
-text = str(trajectories)
-for line in ("Ids: 5-9", "EveryNth: 1", "NumberOfSamples: 0", "Seed: 0", "RegionOfInterest: 1 -1 1 -1 1 -1", "SelectionFrame: -1",
-             "TimeWindow: 1 -1", "FrameStride: 1", "Arrays: v", "PeriodicLines: 0", "Tail: 3", "Threads: 0"):
-    assert f"  {line}\n" in text, line
-text = str(filter_of("History", reader_of(walk)))
-for line in ("OutputType: 0", "Quantiles: 0.5", "MeanSquareDisplacement: Off"):
-    assert f"  {line}\n" in text, line
 print("all said")
