@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Source and filter from C++: pieces, ghosts, inputs that are none, stopping, printing.
+// Source and filter from C++: pieces, ghosts, inputs that are none, stopping.
 #include "vtkGranularDecomposition.h"
 #include "vtkGranularDecompositionSource.h"
 
@@ -11,7 +11,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
-#include "vtkIdList.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -26,8 +25,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -107,33 +104,6 @@ TEST(DecompositionSource, PiecesAreTheWhole)
   EXPECT_EQ(cell, 105);
 }
 
-TEST(DecompositionSource, CornersHaveTheNumbersOfTheDescription)
-{
-  Source source;
-  source->SetBounds(0, 1, 0, 2, 0, 3);
-  source->Update();
-  for (int i = 0; i < 2; ++i)
-  {
-    for (int j = 0; j < 2; ++j)
-    {
-      for (int k = 0; k < 2; ++k)
-      {
-        const double* point = source.Grid()->GetPoint(4 * i + 2 * j + k);
-        EXPECT_EQ(point[0], i);
-        EXPECT_EQ(point[1], 2 * j);
-        EXPECT_EQ(point[2], 3 * k);
-      }
-    }
-  }
-  vtkNew<vtkIdList> ids;
-  source.Grid()->GetCellPoints(0, ids);
-  const vtkIdType expected[] = { 0, 4, 2, 6, 1, 5, 3, 7 };
-  for (int i = 0; i < 8; ++i)
-  {
-    EXPECT_EQ(ids->GetId(i), expected[i]);
-  }
-}
-
 TEST(DecompositionSource, ErrorsLeaveNothingAndAreGoneWhenMended)
 {
   const struct
@@ -142,9 +112,6 @@ TEST(DecompositionSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     const char* Text;
   } cases[] = {
     { [](vtkGranularDecompositionSource* s) { s->SetBounds(0, -1, 0, 1, 0, 1); }, "along x" },
-    { [](vtkGranularDecompositionSource* s)
-      { s->SetBounds(0, std::numeric_limits<double>::quiet_NaN(), 0, 1, 0, 1); },
-      "along x" },
     { [](vtkGranularDecompositionSource* s) { s->SetNumberOfProcesses(3); }, "got 3" },
     { [](vtkGranularDecompositionSource* s) { s->SetProcessorGrid(0, 2, 2); }, "got 0" },
     { [](vtkGranularDecompositionSource* s)
@@ -174,15 +141,6 @@ TEST(DecompositionSource, ErrorsLeaveNothingAndAreGoneWhenMended)
     EXPECT_EQ(source.Grid()->GetNumberOfCells(), 1);
     EXPECT_EQ(source->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
   }
-}
-
-TEST(DecompositionSource, AMillionProcesses)
-{
-  Source source;
-  source->SetProcessorGrid(100, 100, 100);
-  source->Update();
-  EXPECT_EQ(source.Grid()->GetNumberOfCells(), 1000000);
-  EXPECT_EQ(source.Grid()->GetNumberOfPoints(), 8000000);
 }
 
 TEST(Decomposition, FacesBelongToTheProcessAboveAndTheLastToTheBox)
@@ -326,19 +284,5 @@ TEST(Decomposition, StopsAtAnyReportAndStartsAfresh)
     EXPECT_EQ(filter.Grid()->GetNumberOfCells(), 0) << at;
     filter->Update();
     EXPECT_EQ(Sum(filter.Cells("nlocal")), 100000);
-  }
-}
-
-TEST(Decomposition, PrintsAllProperties)
-{
-  Filter filter;
-  filter->SetProcessorGrid(1, 2, 3);
-  filter->AddYCut(0.25);
-  std::ostringstream out;
-  filter->Print(out);
-  for (const char* line : { "ProcessorGrid: 1 2 3\n", "YCuts: 0.25\n", "Bounds: 1 -1 1 -1 1 -1\n",
-         "Mode: 0\n", "ProcessArray: proc\n" })
-  {
-    EXPECT_NE(out.str().find(line), std::string::npos) << line;
   }
 }

@@ -36,6 +36,7 @@ void expect_beginning(GridFile& cut, GridFile& whole)
   ASSERT_LE(cut.frames(), whole.frames());
   for (std::size_t frame = 0; frame < cut.frames(); ++frame)
   {
+    ASSERT_EQ(cut.entry(frame).line, whole.entry(frame).line);
     granular::Decomposition expected = whole.read(frame);
     const granular::Decomposition got = cut.read(frame);
     ASSERT_EQ(got.subdomains.size(), expected.subdomains.size());

@@ -94,6 +94,8 @@ TEST(DecompositionFile, XmlIsAFrameOfItsOwn)
     EXPECT_EQ(file.entry().rows, 3);
     EXPECT_EQ(file.entry().offset, 0);
     EXPECT_EQ(file.entry().end, static_cast<std::int64_t>(text.size()));
+    EXPECT_EQ(file.read().subdomains, boxes_of_three(2147483647, { 0, 1, 2 }));
+    EXPECT_EQ(file.told(), reflected("memory:1", 3));
     GridFile cut(text.substr(0, text.size() - 3));
     EXPECT_EQ(cut.frames(), 0u);
     EXPECT_EQ(cut.defect(), "memory: expected </VTKFile> at the end of the file, got none");
@@ -273,21 +275,6 @@ TEST(DecompositionFile, TextInAnyForm)
 }
 
 // ---- growing files -----------------------------------------------------------------------------------
-
-TEST(DecompositionFile, GrowsGridByGrid)
-{
-  const std::string whole = two_boxes("0.000000") + two_boxes() + two_boxes("0.500000");
-  GridFile file("");
-  for (std::size_t bytes = 0; bytes <= whole.size(); ++bytes)
-  {
-    file.grow(whole.substr(0, bytes));
-    const std::size_t complete = bytes / (whole.size() / 3);
-    ASSERT_EQ(file.frames(), complete) << bytes;
-    EXPECT_EQ(file.index().resume_line, static_cast<std::int64_t>(11 * complete + 1));
-  }
-  EXPECT_EQ(file.said(), "");
-  EXPECT_EQ(file.read(2).subdomains, boxes_of_two(0.5));
-}
 
 TEST(DecompositionFile, DataComeLater)
 {

@@ -153,21 +153,6 @@ check("public", reader("decomposition/all.vtk"), (-0.05, 0.05, -0.05, 0.05, 0, 0
 for name in ("inl_42.vtk", "inl_51_binary.vtk", "inl.vtu", "hexahedra_42.vtk", "appended_raw_zlib.vtu"):
     check(name, reader("decomposition/" + name), (-1, 1, 0, 0.5, 0, 2), forms_grid=False)
 
-# a slab one ulp thick has a volume, too, and so it has when it is written and read, as has a box far away
-thin = (1.0, numpy.nextafter(1.0, 2.0), 0, 1, 0, 1)
-for bounds, grid in ((thin, (1, 2, 2)), (far, (4, 2, 3))):
-    made = source(bounds, grid)
-    for ending in (".vtk", ".vtu"):
-        writer = vg.vtkGranularDecompositionWriter()
-        writer.SetController(None)
-        writer.SetInputData(made)
-        writer.SetFileName(os.path.abspath("made" + ending))
-        assert writer.Write() == 1
-        read = reader(writer.GetFileName())
-        assert (bounds_of_cells(read) == bounds_of_cells(made)).all(), (bounds, ending)
-        whole = numpy.subtract(bounds[1::2], bounds[::2]).prod()
-        assert abs(sizes(read)[1].sum() - whole) <= 1e-12 * whole, (bounds, ending)
-
 # ---- particles of real runs ------------------------------------------------------------------------------
 
 

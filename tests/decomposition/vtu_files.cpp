@@ -164,18 +164,6 @@ TEST(VtuFiles, InEveryForm)
   }
 }
 
-TEST(VtuFiles, OfLiggghts)
-{
-  for (const char* name : { "inl.vtu", "inl_appended.vtu" })
-  {
-    GridFile file(data_file(std::string("good/decomposition/") + name));
-    EXPECT_EQ(file.read().subdomains, boxes_of_three(2147483647, { 0, 1, 2 }));
-    EXPECT_EQ(file.told(),
-      "memory:1: corners of 3 voxels are in the order of LIGGGHTS-INL, x and z exchanged: they "
-      "were put right\n");
-  }
-}
-
 TEST(VtuFiles, TagsInAnyForm)
 {
   const std::string good = one_voxel();

@@ -208,15 +208,6 @@ TEST(DecompositionWriter, GhostCells)
   EXPECT_EQ(CellWriter(NewName("a.vtk"), grid).Bytes(), TwoCells + TwoArrays);
 }
 
-TEST(DecompositionWriter, NoCells)
-{
-  vtkNew<vtkUnstructuredGrid> nothing;
-  EXPECT_NE(
-    CellWriter(NewName("a.vtk"), nothing).Bytes().find("\nPOINTS 0 double\n"), std::string::npos);
-  EXPECT_NE(
-    CellWriter(NewName("a.vtu"), nothing).Bytes().find("NumberOfCells=\"0\""), std::string::npos);
-}
-
 /// What overlaps or leaves gaps is for readers to judge.
 TEST(DecompositionWriter, NoJudge)
 {
@@ -229,12 +220,6 @@ TEST(DecompositionWriter, Grid)
   CellWriter writer(NewName("a.vtk"), MakeTwo());
   writer->SetDialect(vtkGranularDecompositionWriter::PUBLIC);
   EXPECT_EQ(writer.Bytes(), TwoAsGrid);
-  CellWriter other(WriteFile("a.vtk", "old"), MakeGrid({ Two[0], { 1, 2, 0, 0.5, 0, 0.1 } }));
-  other->SetDialect(vtkGranularDecompositionWriter::PUBLIC);
-  other.ExpectUnsupported(
-    "expected subdomains that form a grid, which is all that a rectilinear grid "
-    "can hold, got 2 that do not");
-  EXPECT_EQ(Content(other->GetFileName()), "old");
 }
 
 TEST(DecompositionWriter, Xml)
