@@ -19,9 +19,6 @@
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <cmath>
-#include <limits>
-
 namespace
 {
 using CellWriter = WholeFileWriter<vtkGranularEulerWriter>;
@@ -214,21 +211,6 @@ TEST(EulerWriter, NoCells)
   EXPECT_EQ(CellWriter(NewName("a.euler"), none).Bytes(), EulerText({}));
   vtkNew<vtkPartitionedDataSet> no;
   EXPECT_EQ(CellWriter(NewName("a.euler"), no).Bytes(), EulerText({}));
-}
-
-/// What is no number stays that.
-TEST(EulerWriter, NoNumbers)
-{
-  auto points = MakePoints({ { 0, 0, 0 }, { 1, 0, 0 } });
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  AddValues(points->GetPointData(), "pressure", 1, { std::nan(""), -infinity });
-  for (const int dialect : { vtkGranularEulerWriter::LIGGGHTS, vtkGranularEulerWriter::WIDE })
-  {
-    CellWriter writer(NewName("a.euler"), points);
-    writer->SetDialect(dialect);
-    const std::string text = writer.Bytes();
-    EXPECT_NE(text.find("nan\n-inf\n"), std::string::npos) << text;
-  }
 }
 
 TEST(EulerWriter, Wide)
