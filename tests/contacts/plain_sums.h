@@ -170,14 +170,14 @@ inline Vector3 moment(const Vector3& arm, const Vector3& force)
 }
 
 inline void add_end(PlainSums& to, const Vector3& arm, const Vector3& normal, const Vector3& force,
-  const Vector3& torque, bool counts)
+  const Vector3& torque)
 {
   constexpr std::array<std::array<std::size_t, 2>, 6> axes = { { { 0, 0 }, { 1, 1 }, { 2, 2 },
     { 0, 1 }, { 0, 2 }, { 1, 2 } } };
   const double length =
     std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-  to.coordination += counts ? 1 : 0;
-  to.normals += counts && length > 0 ? 1 : 0;
+  ++to.coordination;
+  to.normals += length > 0 ? 1 : 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     to.force[axis].add(force[axis]);
@@ -187,16 +187,15 @@ inline void add_end(PlainSums& to, const Vector3& arm, const Vector3& normal, co
   {
     const auto [a, b] = axes[n];
     to.stress[n].add(arm[a] * force[b]);
-    if (counts && length > 0)
+    if (length > 0)
     {
       to.fabric[n].add(normal[a] / length * (normal[b] / length));
     }
   }
 }
 
-/// The sums of all particles, each rounded once. Contacts count where `counts(touch)`.
-template <class Counts>
-std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& counts)
+/// The sums of all particles, each rounded once.
+inline std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever = LeverArm::ContactPoint)
 {
   std::map<Id, std::size_t> particle_of; // the first that is no ghost
   for (std::size_t i = 0; i < scene.particles.size(); ++i)
@@ -230,7 +229,7 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
       const Vector3 arm =
         use_point && line ? seen_from(touch.from, touch.point, scene) : share(part);
       add_end(sums[first->second], arm, branch, touch.force,
-        scene.known.torque && line ? touch.torque : moment(arm, touch.force), counts(touch));
+        scene.known.torque && line ? touch.torque : moment(arm, touch.force));
     }
     if (second != particle_of.end())
     {
@@ -239,8 +238,7 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
       const Vector3 force = turned_round(touch.force);
       add_end(sums[second->second], arm, branch, force,
         scene.known.torque && line ? minus(moment(branch, touch.force), touch.torque)
-                                   : moment(arm, force),
-        counts(touch));
+                                   : moment(arm, force));
     }
   }
   for (const Touch& touch : scene.walls)
@@ -254,7 +252,7 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
     {
       const Vector3 normal = scene.known.ends ? minus(touch.from, touch.to) : arm;
       add_end(sums[particle->second], arm, normal, touch.force,
-        scene.known.torque ? touch.torque : moment(arm, touch.force), counts(touch));
+        scene.known.torque ? touch.torque : moment(arm, touch.force));
     }
   }
   std::vector<Sums> rounded(sums.size());
@@ -274,11 +272,6 @@ std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever, const Counts& c
     round(sums[i].stress, rounded[i].stress, 1);
   }
   return rounded;
-}
-
-inline std::vector<Sums> plain_sums(const Scene& scene, LeverArm lever = LeverArm::ContactPoint)
-{
-  return plain_sums(scene, lever, [](const Touch&) { return true; });
 }
 
 /// A request of what plain_sums makes.

@@ -148,31 +148,6 @@ TEST(ContactSums, AnyNumberOfThreadsAndMemory)
   }
 }
 
-/// Contacts that do not count have no part in coordination and fabric.
-TEST(ContactSums, Thresholds)
-{
-  SceneForm form;
-  form.known.overlap = true;
-  form.powers = 2;
-  const Scene scene = make_scene(form, 20);
-  made::ContactSumsRequest request = plain_request();
-  request.options.least_overlap = 0.5;
-  EXPECT_EQ(count_different(sum_all(scene, request).particles,
-              plain_sums(scene, LeverArm::ContactPoint,
-                [](const Touch& touch) { return touch.overlap >= 0.5; })),
-    0);
-  request.options.least_overlap = 0;
-  request.options.least_force = 1;
-  const auto is_large = [](const Touch& touch)
-  {
-    const auto& [x, y, z] = touch.force;
-    return x * x + y * y + z * z >= 1;
-  };
-  EXPECT_EQ(count_different(sum_all(scene, request).particles,
-              plain_sums(scene, LeverArm::ContactPoint, is_large)),
-    0);
-}
-
 TEST(ContactSums, AMillionContactsOfOneParticle)
 {
   HardCase hard("sums",
