@@ -5,9 +5,8 @@ import os
 
 import numpy
 import vtkgranular as vg
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 import plain_dump
@@ -173,22 +172,6 @@ for bad in ("1.5", "-0.1", "x", "0.5x", "nan", "0,5 2"):
     assert history(walk, "expected Quantiles of numbers from 0 to 1, got", OutputType=STATISTICS, Arrays="v", Quantiles=bad) == {}
 
 
-def spoil(output):
-    """Numbers that are none, in an array of its own."""
-    count = output.GetNumberOfPoints()
-    values = numpy.arange(count, dtype=float)
-    values[::3], values[1], values[2] = numpy.nan, numpy.inf, -numpy.inf
-    array = numpy_to_vtk(values, deep=1)
-    array.SetName("odd")
-    output.GetPointData().AddArray(array)
-
-
-found = history(Passing(walk, spoil), OutputType=STATISTICS, Arrays="odd", Quantiles="0.5")
-good = [i for i in range(30) if i % 3 and i > 2]
-assert (found["odd_mean"] == sum(good) / len(good)).all() and (found["odd_min"] == 4).all() and (found["odd_max"] == 29).all()
-assert (found["odd_0.5"] == quantile(good, 0.5)).all() and (found["particles"] == 30).all()
-
-
 # an array that some frames lack, as columns of later files do: nan there, as for single particles
 def drop(output):
     if output.GetFieldData().GetArray("timestep").GetValue(0) % 40:
@@ -227,42 +210,6 @@ for names, plainly in ((["grains.dump"], {}), (["plain.dump"], {}), (["ortho_ima
                 squares = (steps ** 2).mean(axis=0)
                 assert numpy.allclose(found["msd_xyz"][number], squares, rtol=1e-9, atol=1e-20), (names, number)
                 assert math.isclose(found["msd"][number], squares.sum(), rel_tol=1e-9, abs_tol=1e-20)
-
-# frames in which nobody is, and particles that return
-def hide(output):
-    step = output.GetFieldData().GetArray("timestep").GetValue(0) // 20
-    ids = vtk_to_numpy(output.GetPointData().GetArray("id"))
-    keep = numpy.flatnonzero((ids + step) % 7 > 2) if step != 5 else []
-    points, thinned = vtkPoints(), vtkPolyData()
-    points.SetDataTypeToDouble()
-    points.SetData(numpy_to_vtk(vtk_to_numpy(output.GetPoints().GetData())[keep].reshape(-1, 3), deep=1))
-    thinned.SetPoints(points)
-    for i in range(output.GetPointData().GetNumberOfArrays()):
-        array = output.GetPointData().GetArray(i)
-        part = numpy_to_vtk(vtk_to_numpy(array)[keep], deep=1, array_type=array.GetDataType())
-        part.SetName(array.GetName())
-        thinned.GetPointData().AddArray(part)
-    thinned.GetFieldData().ShallowCopy(output.GetFieldData())
-    output.ShallowCopy(thinned)
-
-
-frames = plain_dump.read(os.path.join(data, "paths", "walk.dump.gz"))
-for frame in frames:
-    step = frame.timestep // 20
-    keep = [row for row, i in enumerate(frame.columns["id"]) if (int(i) + step) % 7 > 2 and step != 5]
-    frame.columns, frame.rows = {name: [column[row] for row in keep] for name, column in frame.columns.items()}, len(keep)
-paths = plain_paths.paths(frames)
-found = history(Passing(walk, hide), MeanSquareDisplacement=True, Arrays="v")
-for i, path in paths.items():
-    expected = numpy.full((31, 3), numpy.nan)
-    expected[path.frames] = path.places
-    assert numpy.allclose(found[f"position (id {i})"], expected, rtol=1e-12, atol=1e-12, equal_nan=True), i
-for number in range(31):
-    steps = [path.places[path.frames.index(number)] - path.places[0] for path in paths.values()
-             if path.frames[0] == 0 and number in path.frames]
-    assert found["msd_particles"][number] == len(steps)
-    assert not steps and math.isnan(found["msd"][number]) or math.isclose(
-        found["msd"][number], (numpy.array(steps) ** 2).sum() / len(steps), rel_tol=1e-9, abs_tol=1e-20)
 
 
 # ---- without image counts: to the nearest image, in a box that is sheared and flipped -------------------------------

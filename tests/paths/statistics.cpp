@@ -6,7 +6,6 @@
 
 #include "../support/big_sum.h"
 #include "../support/hard_case.h"
-#include "../support/quad.h"
 #include "../support/thread_ranks.h"
 #include "path_checks.h"
 
@@ -95,17 +94,6 @@ double quantile_of(const Doubles& sorted, double part)
   }
   return sorted.back();
 }
-}
-
-TEST(ExactSums, TheTestsOwnSums)
-{
-  EXPECT_EQ(exact_sum({ 1, 0x1p-53 }), 1);
-  EXPECT_EQ(exact_sum({ 1, 0x1p-53, 0x1p-1074 }), std::nextafter(1, 2));
-  EXPECT_EQ(exact_sum({ -1, -0x1p-53, -0x1p-1074 }), std::nextafter(-1, -2));
-  EXPECT_EQ(exact_sum({ 1e300, 1, -1e300 }), 1);
-  EXPECT_EQ(exact_sum({ 0x1p-1074, 0x1p-1073 }), 3 * 0x1p-1074);
-  EXPECT_EQ(exact_sum({ 0.1, 0.2, -0.3 }),
-    static_cast<double>(static_cast<Quad>(0.1) + static_cast<Quad>(0.2) - static_cast<Quad>(0.3)));
 }
 
 TEST(ExactSums, OfAnyMagnitudesOnAnyRanks)

@@ -11,6 +11,7 @@ if __name__ == "__main__":  # where the scripts of filters leave names such as m
 
 import numpy
 from paraview.simple import *
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 import plain_dump
@@ -252,6 +253,17 @@ paths = plain_paths.paths(walk)
 lines = draw(hidden, 0, Arrays="v")
 expect(lines, paths, list(walkers.TimestepValues), [frame.timestep for frame in walk], walk, [("v", ["vx", "vy", "vz"])])
 assert sum(len(each) for each in lines.values()) > 100
+history = GranularHistory(Input=hidden, MeanSquareDisplacement=1, NumberOfSamples=0)
+history.UpdatePipeline(0)
+table = history.GetClientSideObject().GetOutput().GetRowData()
+for particle, path in paths.items():
+    expected = numpy.full((31, 3), numpy.nan)
+    expected[path.frames] = path.places
+    assert numpy.allclose(vtk_to_numpy(table.GetArray(f"position (id {particle})")), expected, rtol=1e-12, atol=1e-12, equal_nan=True), particle
+for number, (count, msd) in enumerate(zip(*(vtk_to_numpy(table.GetArray(name)) for name in ("msd_particles", "msd")))):
+    steps = [path.places[path.frames.index(number)] - path.places[0] for path in paths.values() if path.frames[0] == 0 and number in path.frames]
+    assert count == len(steps) and (numpy.isclose(msd, (numpy.array(steps) ** 2).sum() / len(steps), rtol=1e-9, atol=1e-20) if steps else msd != msd)
+Delete(history)
 
 # ---- tails ---------------------------------------------------------------------------------------------------------
 
