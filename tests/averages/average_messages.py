@@ -102,10 +102,7 @@ dump = reader_of(os.path.join(data, "grains.dump"))
 BOX = (-0.05, 0.05, -0.05, 0.05, 0, 0.15)
 average = filter_of(dump)
 good = works(average, 2000)
-for size in ((0, 0.01, 0.01), (0.01, -0.01, 0.01), (0.01, 0.01, float("nan"))):
-    fails(average, "expected edges of cells above 0, got ", 2000, CellsBy=SIZE, CellSize=size, Bounds=BOX)
-fails(average, "expected less than 2.31 cells along an axis", 2000, CellSize=(1e-12, 1, 1))
-fails(average, "expected at most 2.40 cells, got 100000 x 100000 x 150", 2000, CellSize=(1e-6, 1e-6, 1e-3))
+fails(average, "expected edges of cells above 0, got ", 2000, CellsBy=SIZE, CellSize=(0, 0.01, 0.01), Bounds=BOX)
 works(average, 2000, CellSize=(0.01, 0.02, 0.015), Bounds=(1, -1) * 3)  # by the box of the dump
 assert average.GetOutputDataObject(0).GetExtent() == (0, 10, 0, 5, 0, 10)
 works(average, 0, Bounds=(0, 0, -0.02, 0.02, 1, -1))
@@ -115,8 +112,7 @@ relative = works(average, 2000, CellsBy=RELATIVE, Bounds=(0, 0) * 3)
 assert relative["radius"].tobytes() == works(average, 2000, OutputType=POINTS)["radius"].tobytes()
 assert len(relative["radius"]) == 112 and average.GetOutputDataObject(0).GetNumberOfPoints() == 112
 average.SetOutputType(1)
-for counts in ((0, 1, 1), (3, -7, 3)):
-    fails(average, "expected 1 to 2.31 - 1 cells along each axis, got", 2000, CellsBy=COUNTS, CellCounts=counts)
+fails(average, "expected 1 to 2.31 - 1 cells along each axis, got", 2000, CellsBy=COUNTS, CellCounts=(3, -7, 3))
 # as many as there may be: of the memory, where there is no room
 fails(average, "memory", 2000, CellCounts=(10000, 10000, 10000))
 fails(average, "expected finite bounds of cells", 2000, CellCounts=(10, 10, 10), Bounds=(2, 2) * 3)
@@ -136,21 +132,8 @@ assert len(works(average, 2000)["radius"]) == 112
 # ---- what is needed -------------------------------------------------------------------------------------------
 
 fails(average, "expected an array 'size' of radii, got none", 2000, RadiusArray="size")
-fails(average, "expected an array 'size' of radii, which the weights Overlap need, got none", 2000, CellsBy=COUNTS)
-found = works(average, 2000, ["no array 'size' of radii: radius and volumefraction are 0"], Weights=CENTRE)
-assert not found["radius"].any() and not found["volumefraction"].any() and found["v_avg"].any()
-found = works(average, 2000, ["no array 'u' of velocities: v_avg is 0"], RadiusArray="radius", VelocityArray="u")
-assert not found["v_avg"].any() and found["radius"].any()
-works(average, 2000, ["neither an array 'm' nor density and radius: .* is taken as 1"], VelocityArray="v", MassArray="m")
-fails(average, "expected an array 'c_s' with six values a particle, .* got none", 2000, MassArray="mass", StressArray="c_s")
-fails(average, "expected an array 'v' with 6 values a particle, got 3", 2000, StressArray="v")
-fails(average, "expected an array 'v' with one value a particle, got 3", 2000, StressArray=None, MassArray="v")
-works(average, 2000, MassArray="mass")
-
-average.GetArraySelection().EnableArray("velocity")
-works(average, 2000, ["there is no array 'velocity': Arrays may name v_avg, volumefraction, "])
-average.GetArraySelection().DisableArray("velocity")
-works(average, 2000)
+fails(average, "expected an array 'v' with one value a particle, got 3", 2000, RadiusArray="radius", MassArray="v")
+works(average, 2000, MassArray="mass", CellsBy=COUNTS, Weights=CENTRE)
 
 tilted = filter_of(reader_of(os.path.join(data, "tri_plain.dump")), Weights=CENTRE)
 nothing = ["no array 'v'", "no array 'radius'", "neither an array 'mass'"]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages of contacts: the same bits for any order of rows, threads and ranks; rows that are missing, broken or not there.
-#include "made_touches.h"
+#include "made_rows.h"
 
 #include "granular/common/error.h"
 
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,72 +21,18 @@ using namespace granular;
 
 namespace
 {
-constexpr Vector3 lo = { -1, 0, 2 };
-constexpr Vector3 hi = { 1, 3, 3 };
-
-Box make_box()
-{
-  Box box = Box::from_bounds(lo, hi);
-  box.boundary = "pp ff pp";
-  return box;
-}
-
-/// The bits of all that is known of cells, one vector for each cell.
-std::vector<std::vector<std::uint64_t>> bits_of(const EulerAverages& averages)
-{
-  const auto cells = static_cast<std::size_t>(averages.cells.count());
-  std::vector<std::vector<std::uint64_t>> bits(cells);
-  const auto add = [&](const std::vector<double>& values)
-  {
-    const std::size_t width = cells > 0 ? values.size() / cells : 0;
-    for (std::size_t i = 0; i < cells * width; ++i)
-    {
-      bits[i / width].push_back(std::bit_cast<std::uint64_t>(values[i]));
-    }
-  };
-  for (const EulerArray& array : euler_arrays())
-  {
-    add(averages.cells.*array.values);
-  }
-  for (const EulerField& field : euler_fields)
-  {
-    add(averages.fields.*field.values);
-  }
-  for (const std::vector<double>* sums :
-    { &averages.sums.share, &averages.sums.mass, &averages.sums.momentum, &averages.sums.ends,
-      &averages.sums.contacts, &averages.sums.normals })
-  {
-    add(*sums);
-  }
-  return bits;
-}
-
 /// Each particle and each contact on some rank, or all of them on one.
 Scene part_of(const Scene& scene, const Communicator& ranks, unsigned seed)
 {
   std::mt19937_64 random(seed);
-  const auto is_here = [&]
-  {
-    const std::uint64_t number = random();
-    const auto size = static_cast<std::uint64_t>(ranks.size());
-    const std::uint64_t of = seed % 2 == 0 ? number % size : seed / 2 % size;
-    return of == static_cast<std::uint64_t>(ranks.rank());
-  };
-  Scene part;
-  part.forces = scene.forces;
-  for (std::size_t i = 0; i < scene.particles.size(); ++i)
-  {
-    if (is_here())
+  return part_of(scene,
+    [&]
     {
-      part.particles.push_back(scene.particles[i]);
-      part.ids.push_back(scene.ids[i]);
-    }
-  }
-  const auto take = [&](const std::vector<Touch>& from, std::vector<Touch>& to)
-  { std::ranges::copy_if(from, std::back_inserter(to), [&](const Touch&) { return is_here(); }); };
-  take(scene.pairs, part.pairs);
-  take(scene.walls, part.walls);
-  return part;
+      const std::uint64_t number = random();
+      const auto size = static_cast<std::uint64_t>(ranks.size());
+      const std::uint64_t of = seed % 2 == 0 ? number % size : seed / 2 % size;
+      return of == static_cast<std::uint64_t>(ranks.rank());
+    });
 }
 
 /// Cells that are a block, and several of them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Averages at points: the same bits for any order, threads and ranks; points and rows that are far away, broken or not there.
 #include "made_points.h"
+#include "made_rows.h"
 
 #include "granular/averages/point_sources.h"
 #include "granular/common/error.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -25,46 +25,11 @@ using namespace granular;
 
 namespace
 {
-constexpr Vector3 lo = { -1, 0, 2 };
-constexpr Vector3 hi = { 1, 3, 3 };
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-using Bits = std::vector<std::vector<std::uint64_t>>;
-
-/// Of each point.
-Bits bits_of(const EulerAverages& averages)
-{
-  const auto points = static_cast<std::size_t>(averages.cells.count());
-  Bits bits(points);
-  const auto add = [&](const std::vector<double>& values)
-  {
-    const std::size_t width = points > 0 ? values.size() / points : 0;
-    for (std::size_t i = 0; i < points * width; ++i)
-    {
-      bits[i / width].push_back(std::bit_cast<std::uint64_t>(values[i]));
-    }
-  };
-  for (const EulerArray& array : euler_arrays())
-  {
-    add(averages.cells.*array.values);
-  }
-  for (const EulerField& field : euler_fields)
-  {
-    add(averages.fields.*field.values);
-  }
-  return bits;
-}
 
 bool are_zero(const std::vector<std::uint64_t>& bits)
 {
   return std::ranges::all_of(bits, [](std::uint64_t each) { return each == 0; });
-}
-
-Box make_box()
-{
-  Box box = Box::from_bounds(lo, hi);
-  box.boundary = "pp ff pp";
-  return box;
 }
 
 PointAverageRequest some_request()
@@ -72,45 +37,6 @@ PointAverageRequest some_request()
   return request_at_points(KernelShape::Gaussian, 0.15);
 }
 
-/// One of several ranks, for each thing anew.
-class Chooser
-{
-public:
-  Chooser(const Communicator& ranks, unsigned seed)
-    : random_(seed)
-    , rank_(static_cast<std::uint64_t>(ranks.rank()))
-    , size_(static_cast<std::uint64_t>(ranks.size()))
-  {
-  }
-
-  bool is_here() { return random_() % size_ == rank_; }
-
-private:
-  std::mt19937_64 random_;
-  std::uint64_t rank_;
-  std::uint64_t size_;
-};
-
-Scene part_of(const Scene& scene, Chooser& chooser)
-{
-  Scene part;
-  for (std::size_t i = 0; i < scene.particles.size(); ++i)
-  {
-    if (chooser.is_here())
-    {
-      part.particles.push_back(scene.particles[i]);
-      part.ids.push_back(scene.ids[i]);
-    }
-  }
-  const auto take = [&](const std::vector<Touch>& from, std::vector<Touch>& to)
-  {
-    std::ranges::copy_if(
-      from, std::back_inserter(to), [&](const Touch&) { return chooser.is_here(); });
-  };
-  take(scene.pairs, part.pairs);
-  take(scene.walls, part.walls);
-  return part;
-}
 }
 
 TEST(PointRows, AnyOrderAndThreadsGiveTheSameBits)
@@ -151,8 +77,13 @@ TEST(PointRows, AnyRanksGiveTheSameBits)
       run_ranks(size,
         [&](Communicator& ranks)
         {
-          Chooser chooser(ranks, 6);
-          const Scene part = part_of(scene, chooser);
+          std::mt19937_64 random(6);
+          const auto is_here = [&]
+          {
+            return random() % static_cast<std::uint64_t>(ranks.size()) ==
+              static_cast<std::uint64_t>(ranks.rank());
+          };
+          const Scene part = part_of(scene, is_here);
           std::vector<double> own;
           Bits expected;
           for (std::size_t i = 0; i < all.size(); ++i)
