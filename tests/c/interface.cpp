@@ -286,38 +286,6 @@ TEST(CInterface, ColumnsOfUnknownMeaningAreListed)
   EXPECT_NE(message().find("several presets fit the values"), std::string::npos) << message();
 }
 
-TEST(CInterface, NoticesAndProgressReachTheCaller)
-{
-  struct Seen
-  {
-    std::vector<std::string> notices;
-    std::vector<double> fractions;
-    int stop_after = 1000000;
-  } seen;
-  granular_request request;
-  granular_request_init(&request);
-  request.user = &seen;
-  request.notice = [](const granular_error* remark, void* user)
-  { static_cast<Seen*>(user)->notices.emplace_back(remark->message); };
-  request.progress = [](double fraction, void* user)
-  {
-    auto* const mine = static_cast<Seen*>(user);
-    mine->fractions.push_back(fraction);
-    return static_cast<int>(mine->fractions.size()) > mine->stop_after ? 1 : 0;
-  };
-  const RunHandle run = open_run(good("local/chain_bonds.dump"));
-  read_frame(run, -1, &request);
-  ASSERT_FALSE(seen.fractions.empty());
-  EXPECT_TRUE(std::ranges::is_sorted(seen.fractions));
-  EXPECT_FALSE(seen.notices.empty()); // which columns were taken for what
-
-  seen = {};
-  seen.stop_after = 0;
-  granular_frame* frame = nullptr;
-  EXPECT_EQ(granular_read(run.get(), -1, &request, &frame), GRANULAR_CANCELLED);
-  EXPECT_EQ(frame, nullptr);
-}
-
 TEST(CInterface, SeveralThreadsReadOneRun)
 {
   const RunHandle run = open_run(good("grains.dump"));

@@ -135,21 +135,6 @@ TEST(CRanks, AnErrorOfOneIsThatOfAll)
   expect_same(good("grains.dump"), "expected a piece below the number of pieces, 3, got 3");
 }
 
-TEST(CRanks, PiecesWithoutRanksAreTheWhole)
-{
-  granular_request request;
-  granular_request_init(&request);
-  request.pieces = 4;
-  std::string joined;
-  std::string remarks;
-  for (request.piece = 0; request.piece < request.pieces; ++request.piece)
-  {
-    joined += read_last(good("grains.dump"), nullptr, request, "points", remarks);
-  }
-  granular_request_init(&request);
-  EXPECT_TRUE(joined == read_last(good("grains.dump"), nullptr, request, "points", remarks));
-}
-
 TEST(CRanks, ThatCannotBe)
 {
   const auto expect_refused = [](const granular_ranks& ranks, granular_status expected)
