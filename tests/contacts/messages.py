@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonDataModel import (
 
 import plain_contacts as plain
 
-NAN, INFINITY = float("nan"), float("inf")
+NAN = float("nan")
 
 
 def array_of(name, values):
@@ -186,12 +186,11 @@ works(made_of(lines=pairs(force=None)), "neither an array 'force' nor 'force_nor
 
 # ---- properties ----------------------------------------------------------------------------------------------------------
 
-for name, kind, bad in (("MinimumForce", "of 0 or more", (-1, NAN, INFINITY)), ("MinimumOverlap", "of 0 or more", (-1e-9, NAN, INFINITY)),
-                        ("FrictionCoefficient", "above 0", (0, -0.5, NAN, INFINITY))):
+for name, kind, bad in (("MinimumForce", "of 0 or more", "-1 nan inf"), ("MinimumOverlap", "of 0 or more", "-1e-09 nan inf"),
+                        ("FrictionCoefficient", "above 0", "0 -0.5 nan inf")):
     made = made_of(lines=pairs(), on=NAMES)
-    for value, text in zip(bad, {"MinimumForce": ("-1", "nan", "inf"), "MinimumOverlap": ("-1e-09", "nan", "inf"),
-                                 "FrictionCoefficient": ("0", "-0.5", "nan", "inf")}[name]):
-        getattr(made, f"Set{name}")(value)
+    for text in bad.split():
+        getattr(made, f"Set{name}")(float(text))
         fails(made, f"expected a {name} {kind}, got {text}")
     getattr(made, f"Set{name}")(0.5)
     works(made)
@@ -231,14 +230,9 @@ assert array(made, "coordination").tolist() == [0, 1, 1]
 assert array(made, "contact_force").tolist() == [[0, 0, 0], [4, -1, 0], [6, 0, 0]]
 for name in ("contact_torque", "fabric", "contact_stress"):
     assert not array(made, name).any(), name
-for wrong in (NAN, INFINITY, -INFINITY, 1e300):
-    made = made_of(lines=pairs(force=[[-4.0, 1, 0], [wrong, 0, 0]]), walls=walls())
-    works(made, BROKEN.format(1, 3))
-    assert array(made, "contact_force").tolist() == [[-4, 1, 3], [4, -1, 0], [0, 0, 0]]
-    points = [list(point) for point in ENDS]
-    points[1][2] = wrong
-    works(made_of(lines=pairs(points)), BROKEN.format(1, 2))
-    works(made_of(lines=pairs(), particles=all_particles(radius=[wrong, 1, 1])), BROKEN.format(1, 2))
+made = made_of(lines=pairs(force=[[-4.0, 1, 0], [NAN, 0, 0]]), walls=walls())
+works(made, BROKEN.format(1, 3))
+assert array(made, "contact_force").tolist() == [[-4, 1, 3], [4, -1, 0], [0, 0, 0]]
 made = made_of(particles=all_particles(id=[1, 2, 2]), lines=pairs(id2=[2, 2]))
 works(made, "1 particles have the id of another one: contacts go to the first")
 assert array(made, "coordination").tolist() == [1, 3, 0]
