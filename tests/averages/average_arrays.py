@@ -143,10 +143,6 @@ for kind, name in ((IMAGE, "vtkImageData"), (PROFILE, "vtkTable"), (POINTS, "vtk
 both = Averages("periodic_bed", CellCounts=COUNTS, StressArray="c_s")
 fails(both, "expected a StressArray or contacts .Lines, Walls., got both: contacts would count twice")
 both.update(StressArray=None)
-without_force = Averages("periodic_bed", CellCounts=COUNTS)
-for lines in (without_force.lines, without_force.walls):
-    lines.Update()
-    lines.GetPointDataArraySelection() if hasattr(lines, "GetPointDataArraySelection") else None
 
 
 def changed(port, change_arrays):
@@ -191,8 +187,7 @@ def set_value(name, row, value):
     return how
 
 
-for value in (float("nan"), float("inf"), 1e300):
-    warns(with_lines(set_value("force", 5, value)), ["1 contacts are left out: a number of theirs is no number"])
+warns(with_lines(set_value("force", 5, float("nan"))), ["1 contacts are left out: a number of theirs is no number"])
 found = warns(with_lines(set_value("id1", 5, 12345)), ["1 contacts name a particle that is not there: .* as far as it is known"])
 for name in ALL:  # the line has the digits of another file than the particle
     assert abs(found[name] - everything[name]).max() < 1e-12 * abs(everything[name]).max(), name
