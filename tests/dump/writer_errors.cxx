@@ -220,18 +220,3 @@ TEST(WriterErrors, EachWarningOnceAFile)
       Lines(times, "no array 'id': ids are the numbers of the rows, from 1"));
   }
 }
-
-TEST(WriterErrors, PrintsAllProperties)
-{
-  Writer writer("a.dump");
-  std::ostringstream out;
-  writer->Print(out);
-  for (const char* name :
-    { "FileName: a.dump", "WriteTimeSteps: Off", "ParallelMode: 0", "Threads: 0", "GhostLevel: 0",
-      "Controller: ", "Written: Off", "Style: 1", "Dialect: 2", "Scaled: On", "Image: Off",
-      "Columns: \n", "NumberFormat: Automatic", "SortById: Off", "WriteUnits: Off",
-      "WriteTime: Off", "BoxOrigin: 0 0 0\n", "BoxVectors: 0 0 0 0 0 0 0 0 0\n", "Boundary: \n" })
-  {
-    EXPECT_NE(out.str().find(name), std::string::npos) << name;
-  }
-}

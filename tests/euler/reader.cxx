@@ -18,7 +18,6 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace
 {
@@ -468,18 +467,6 @@ TEST(EulerReader, CanReadFile)
   EXPECT_EQ(can(Good("grains.dump")), 0);
   EXPECT_EQ(can("/nonexistent"), 0);
   EXPECT_EQ(vtkGranularEulerReader::CanReadFile(nullptr), 0);
-}
-
-TEST(EulerReader, Prints)
-{
-  CellReader reader({ Good("euler_1000.vtk") }, Cells);
-  reader->UpdateInformation();
-  std::ostringstream out;
-  reader->Print(out);
-  for (const char* part : { "OutputType: ImageData", "euler_1000.vtk", "volumefraction" })
-  {
-    EXPECT_NE(out.str().find(part), std::string::npos) << part;
-  }
 }
 
 /// Of several files of a timestep the last counts, unless they are said to be pieces.

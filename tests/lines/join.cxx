@@ -42,7 +42,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -833,20 +832,5 @@ TEST(LocalJoinFilter, StopsAtAnyReportAndStartsAfresh)
     EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 0) << at;
     filter->Update();
     EXPECT_EQ(filter.Lines()->GetNumberOfCells(), 100000);
-  }
-}
-
-TEST(LocalJoinFilter, PrintsAllProperties)
-{
-  Filter filter(MakeParticles(), MakeTable());
-  filter->SetAverages("radius v");
-  filter->SetEquilibriumLength(0.25);
-  std::ostringstream out;
-  filter->Print(out);
-  for (const char* line : { "PeriodicLines: 0\n", "Averages: radius v\n", "Differences: \n",
-         "EquilibriumLengthArray: equilibrium_length\n", "EquilibriumLength: 0.25\n",
-         "Threads: 0\n", "Controller: " })
-  {
-    EXPECT_NE(out.str().find(line), std::string::npos) << line;
   }
 }

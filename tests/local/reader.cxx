@@ -17,7 +17,6 @@
 #include "vtkTypeInt64Array.h"
 
 #include <limits>
-#include <sstream>
 
 namespace
 {
@@ -565,20 +564,4 @@ TEST(LocalReaderVtk, CanReadFile)
     EXPECT_FALSE(vtkGranularLocalReader::CanReadFile(path.c_str())) << path;
   }
   EXPECT_FALSE(vtkGranularLocalReader::CanReadFile(nullptr));
-}
-
-TEST(LocalReaderVtk, IsPrinted)
-{
-  LinesReader reader({ Write("id1 id2", { "1 2" }) });
-  reader->SetColumnMap("id1 id2");
-  reader->SetPreset(vtkGranularLocalReader::BONDS);
-  reader->SetPointOrigin(1, 2, 3);
-  reader->Update();
-  std::ostringstream text;
-  reader->Print(text);
-  for (const char* line :
-    { "Preset: 4\n", "ColumnMap: id1 id2\n", "PeriodicLines: 0\n", "PointOrigin: 1 2 3\n" })
-  {
-    EXPECT_NE(text.str().find(line), std::string::npos) << line;
-  }
 }

@@ -18,6 +18,9 @@ for kind in (name for name in dir(module) if name.startswith("vtkGranular")):
     except TypeError:  # an abstract class, whose properties are those of the others
         continue
     assert not hasattr(made, "GetArraySelection") or "  ArraySelection:\n" in str(made), kind
+    if hasattr(made, "AddFileName"):
+        made.AddFileName("a.file")
+        assert "a.file" in str(made), kind
     names = {name for each in type(made).__mro__ if each.__name__.startswith("vtkGranular") for name in vars(each)}
     for name in (name[3:] for name in names if name.startswith("Set") and "G" + name[1:] in names):
         value = getattr(made, f"Get{name}")()
