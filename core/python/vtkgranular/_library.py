@@ -260,7 +260,14 @@ def message_of(value: bytes | None) -> str:
     return re.sub("|".join(rf"\b{name}\b" for name in _SETTINGS), lambda match: _SETTINGS[match.group()], text(value))
 
 
+def _with_path(error: Any, path: str) -> Any:
+    """Returns the error with a path: not as filename, with which Python would make a text of its own."""
+    error.path = path
+    return error
+
+
 def _raise(error: _CError) -> None:
+    # without a variable for what is raised: its traceback would keep itself, and what callers hold, until Python looks for cycles
     message, path = message_of(error.message), text(error.path)
     where = (path, error.line, error.byte, text(error.column))
     if error.status == _CANCELLED:
@@ -268,9 +275,7 @@ def _raise(error: _CError) -> None:
     if error.status == _NO_MEMORY:
         raise MemoryError(message)
     if error.status == _IO_ERROR and error.system_error:
-        failure = type(OSError(error.system_error, ""))(message)  # FileNotFoundError, PermissionError, ...
-        failure.path = path  # not filename, with which Python would make a text of its own
-        raise failure
+        raise _with_path(type(OSError(error.system_error, ""))(message), path)  # FileNotFoundError, PermissionError, ...
     raise (ArgumentError if error.status == _BAD_ARGUMENT else Error)(message, *where)
 
 
