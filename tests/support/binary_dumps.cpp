@@ -149,7 +149,7 @@ const std::vector<Form>& forms()
   return all;
 }
 
-const Form& form(const std::string& name)
+const Form& form(std::string_view name)
 {
   return *std::find_if(
     forms().begin(), forms().end(), [&](const Form& one) { return one.name == name; });

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Binary dumps as programs write them, put together byte by byte: dump_atom.cpp and dump_custom.cpp
@@ -33,7 +34,7 @@ struct Form
 const std::vector<Form>& forms();
 
 /// The form of that name, "plain, little-endian".
-const Form& form(const std::string& name);
+const Form& form(std::string_view name);
 
 struct Frame
 {
