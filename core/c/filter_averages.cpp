@@ -59,10 +59,9 @@ ChosenCells cells_of(Settings& settings, bool profile)
   cells.kernel_bounds = static_cast<KernelBounds>(settings.choice("KernelBounds", 2));
   cells.images = settings.choice("Periodic", 2) == 0;
   cells.time_average = settings.flag("TimeAverage", false);
-  const int axis = settings.choice("ProfileAxis", 3, 2);
   if (profile)
   {
-    cells.profile = axis;
+    cells.profile = settings.choice("ProfileAxis", 3, 2);
     cells.grid.counts.fill(settings.integer("Layers", 20));
     const double thickness = settings.number("Thickness", 0);
     cells.grid.size = { thickness, thickness, thickness };
@@ -75,10 +74,7 @@ ChosenCells cells_of(Settings& settings, bool profile)
     [](double count) { return static_cast<std::int64_t>(std::clamp(count, -0x1p53, 0x1p53)); });
   cells.grid.size = settings.numbers<3>("CellSize", { 0.01, 0.01, 0.01 });
   cells.relative_size = settings.number("CellSizeRelative", 3);
-  if (settings.choice("Output", 3, 1) == 2)
-  {
-    cells.profile = axis;
-  }
+  settings.choice("Output", 2, 1); // the same rows
   return cells;
 }
 

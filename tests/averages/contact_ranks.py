@@ -23,9 +23,10 @@ for name in ("bed", "periodic_bed", "moving"):
     at_points = Averages(name, "PointAverage", KernelWidth=0.004)
     at_points.filter.SetPointsConnection(source.GetOutputPort())
     cells = {"CellCounts": (4, 3, 5), "KernelWidth": 0.004}
-    cases = [(GranularEulerAverage(**ports, **cells, Weights=weights, Output=output),
-              Averages(name, Weights=number, OutputType=kind, **cells))
-             for weights, number in (("Overlap", OVERLAP), ("Gaussian", GAUSSIAN)) for output, kind in (("Points", POINTS), ("Profile", PROFILE))]
+    layers = {"Layers": 5, "KernelWidth": 0.004}
+    cases = [(make(**ports, **settings, Weights=weights), Averages(name, Weights=number, OutputType=kind, **cells))
+             for weights, number in (("Overlap", OVERLAP), ("Gaussian", GAUSSIAN))
+             for make, settings, kind in ((GranularEulerAverage, {**cells, "Output": "Points"}, POINTS), (GranularProfile, layers, PROFILE))]
     for proxy, alone in cases + [(GranularPointAverage(**ports, Points=plane, KernelWidth=0.004), at_points)]:
         proxy.Arrays = ALL
         proxy.UpdatePipeline(step)
