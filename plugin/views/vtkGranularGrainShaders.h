@@ -5,12 +5,17 @@
 // Programs of the graphics hardware for vtkGranularGrainMapper. VTK replaces what begins with //VTK:: by colours, lights and selection.
 // VC are the coordinates of the camera, which looks along -z; MC those of the buffers: counted from a place in view, along the data's axes.
 // With HAVE_SHAPES particles are superquadrics; else spheres. A real is a double where the hardware has them: a float holds too little of
-// the depth near a camera. Numbers come as floats and what these lack.
+// the depth near a camera. Who lacks them is not asked for them, because ParaView 6.1 shows the warning of the driver. Numbers come as
+// floats and what these lack.
 namespace vtkGranularGrainShaders
 {
 constexpr const char* Extensions = R"(//VTK::System::Dec
+#ifdef GL_ARB_gpu_shader_fp64
 #extension GL_ARB_gpu_shader_fp64 : enable
+#endif
+#ifdef GL_ARB_shader_bit_encoding
 #extension GL_ARB_shader_bit_encoding : enable
+#endif
 )";
 
 constexpr const char* Reals = R"(
