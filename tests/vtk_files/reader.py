@@ -97,7 +97,7 @@ def check_meshes():
     blocks = vg.reader(hopper("blocks_*.vtm"))
     walls = GranularMeshReader(FileNames=blocks.FileNames)
     walls.UpdatePipeline(4000)
-    meshes = servermanager.Fetch(walls)
+    meshes = walls.GetClientSideObject().GetOutputDataObject(0)  # Fetch of ParaView 6.1 gives blocks other names
     names = [meshes.GetMetaData(i).Get(meshes.NAME()) for i in range(meshes.GetNumberOfBlocks())]
     assert names == ["funnel", "plate"] and meshes.GetBlock(0).GetCellData().HasArray("wear"), names
 
