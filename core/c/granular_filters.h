@@ -52,7 +52,7 @@ extern "C"
  *                        row: "lo", "spacing" and "counts" of the grid. Settings besides those of ParaView: CellRange, six numbers: the
  *                        wanted cells along x, y and z, from one index to that before the other; else each rank gets a part of all.
  *                        GridOnly: 1: only the facts; particles are asked for where the cells follow from their box or their sizes
- * GranularProfile        as GranularEulerAverage, in layers along the axis ProfileAxis; without CellRange and GridOnly
+ * GranularProfile        as GranularEulerAverage, in layers along the axis ProfileAxis
  * LeftOut, a setting of both averages, is what a reader of the particles left out, for a warning.
  */
 

@@ -133,6 +133,8 @@ TEST(CInterface, EveryKindOpens)
     const RunHandle run = open_run(file.path);
     ASSERT_NE(run, nullptr);
     EXPECT_EQ(facts_of(run).kind, file.kind);
+    EXPECT_EQ(facts_of(run).tables,
+      file.kind == GRANULAR_KIND_RESTART || file.kind == GRANULAR_KIND_DATA_FILE ? 2 : 1);
     const FrameHandle frame = read_frame(run, -1);
     ASSERT_NE(frame, nullptr);
     for (const char* name : file.arrays)
@@ -533,4 +535,20 @@ TEST(CInterface, EachArrayAloneIsThatOfTheWhole)
       }
     }
   }
+}
+
+TEST(CInterface, PackedContentThatIsCutSaysSo)
+{
+  const std::string packed = content(good("tri_000050.dump.gz"));
+  const std::string path = std::string(GRANULAR_OUTPUT) + "/content.gz";
+  std::ofstream(path, std::ios::binary) << packed.substr(0, packed.size() - 100);
+  granular_bytes* bytes = nullptr;
+  ASSERT_EQ(granular_open_bytes(path.c_str(), &bytes), GRANULAR_OK) << message();
+  std::string text(1 << 20, ' ');
+  std::size_t got = 0;
+  int is_cut = 0;
+  EXPECT_EQ(granular_read_bytes(bytes, text.data(), text.size(), &got, &is_cut), GRANULAR_OK);
+  EXPECT_GT(got, 0u);
+  EXPECT_EQ(is_cut, 1);
+  granular_close_bytes(bytes);
 }

@@ -95,6 +95,20 @@ TEST(ReaderSeries, RefreshOnUpdateSeesWhatWasAppended)
   }
 }
 
+TEST(ReaderSeries, RefreshOnUpdateSaysNothingTwice)
+{
+  const std::string file = WriteFile("a.dump", Particle(0) + "garbage\n" + Particle(10));
+  Reader reader({ file });
+  reader->SetRefreshOnUpdate(true);
+  for (const long step : { 20, 30, 40 })
+  {
+    Append(file, Particle(step));
+    reader->UpdateTimeStep(static_cast<double>(step));
+    EXPECT_EQ(reader.Particles()->GetPoint(0)[0], static_cast<double>(step));
+  }
+  EXPECT_EQ(reader.Said->Warnings.size(), 1u);
+}
+
 TEST(ReaderSeries, RefreshOnUpdateReadsNothingThatDidNotChange)
 {
   const std::string file = WriteFile("a.dump", Particle(0) + Particle(10));

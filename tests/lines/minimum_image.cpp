@@ -267,6 +267,22 @@ TEST(MinimumImage, ShortestInRandomTiltedBoxes)
   }
 }
 
+TEST(MinimumImage, ShortestInRandomGeneralBoxes)
+{
+  Numbers numbers;
+  for (int run = 0; run < 70; ++run)
+  {
+    const Box box = with_boundary(
+      Box::from_vectors({}, { numbers.vector(1), numbers.vector(1), numbers.vector(1) }),
+      all_boundaries[run % 7]);
+    const MinimumImage images(box);
+    for (const double scale : { 1., 20., 1e6, 1e11 })
+    {
+      expect_shortest(box, images, numbers.vector(scale), 9);
+    }
+  }
+}
+
 /// Any basis of a lattice gives the same images, also one whose vectors are long and nearly parallel.
 TEST(MinimumImage, AnyBasisOfALattice)
 {

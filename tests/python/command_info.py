@@ -23,6 +23,10 @@ assert told["bytes"] == os.path.getsize(source) and told["files"] == 1 and told[
 assert [column["name"] for column in told["columns"]] == ["id", "type", "image", "v", "f", "omega", "radius", "mass"]
 told = json.loads(granular("info", "--json", os.path.join(SAMPLES, "pieces", "pieces_*.%.dump"))[0])
 assert told["files"] == 20 and told["frames"] == 5 and told["rows"] == [frame.rows for frame in frames]
+for path, kind in ((os.path.join(SAMPLES, "euler_*.vtk"), "euler"), (os.path.join(SAMPLES, "restart", "fibres.20000.restart"), "restart"),
+                   (os.path.join(SAMPLES, "bonds", "chain_bonds.dump"), "local"), (os.path.join(SAMPLES, "bonds", "chain.data"), "data"),
+                   (os.path.join(GOOD, "decomposition_1000.vtk"), "decomposition")):
+    assert json.loads(granular("info", "--json", path)[0])["kind"] == kind, path
 said, _ = granular("info", os.path.join(GOOD, "data_file", "hybrid_labels.data"))
 assert "types    1 grain, 2 shell\n  of bonds 1 weak, 2 strong\n" in said and "hybrid sphere bond, id type x y z" in said, said
 said, _ = granular("info", os.path.join(GOOD, "tri_image.dump"))

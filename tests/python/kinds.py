@@ -49,6 +49,10 @@ volume = numpy.prod(frame["hi"] - frame["lo"], axis=1).sum()
 assert abs(volume / numpy.prod(frame["hi"].max(axis=0) - frame["lo"].min(axis=0)) - 1) < 1e-12  # they fill the box
 vg.write("public.decomposition", frame, dialect="PUBLIC")
 assert content("public.decomposition") == content(os.path.join(GOOD, "decomposition_1000.vtk"))
+vg.write("inl.decomposition", frame)  # without counts nothing in the file says that these are subdomains
+assert vg.kind_of("inl.decomposition") is None
+again = vg.open("inl.decomposition", kind="decomposition")[0]
+assert all(numpy.array_equal(again[name], frame[name]) for name in ("lo", "hi"))
 subdomains = {"lo": [[0.0, 0, 0], [1, 0, 0]], "hi": [[1.0, 1, 1], [2, 1, 1]], "nlocal": [10, 20]}
 vg.write("mine.decomposition", subdomains)
 mine = vg.open("mine.decomposition")[0]
