@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of vtkGranularDumpReader share: small files, and the messages that VTK prints.
+// Shared by the tests of vtkGranularDumpReader: small files, and the messages that VTK prints.
 #ifndef tests_dump_reader_helpers_h
 #define tests_dump_reader_helpers_h
 

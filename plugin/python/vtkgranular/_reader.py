@@ -10,7 +10,6 @@ from typing import Any, Iterable
 from ._errors import expect_utf8, raised
 from ._files import files
 from ._folder import MESHES
-from ._library import shown
 from ._options import READERS
 from ._plugin import expect_plugin, has_plugin
 from ._run import open as open_run
@@ -28,10 +27,8 @@ def _names(paths: Iterable[str], remote: bool) -> list[str]:
             names.append(path)
         elif os.path.exists(path):
             names.append(os.path.abspath(path))
-        elif any(sign in path for sign in "*%?["):
-            names += files(path)
         else:
-            raise FileNotFoundError(f"{shown(path)}: no such file or folder")
+            names += files(path)
     if not names:
         raise ValueError("no files")
     return [expect_utf8(name) for name in names]
